@@ -1,0 +1,80 @@
+/// Lumped-mass mooring lines: statics, stepping, loads. All in double precision.
+/// The formulas of one segment and node live in physics/line.h, shared by every stepper.
+#ifndef FAIRLEAD_MOORING_H
+#define FAIRLEAD_MOORING_H
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/portable.h"
+#include "scene.h"
+
+/// Water around a line: what a node asks for. One call fills `count` nodes.
+/// velocity [m/s], acceleration [m/s^2], surface elevation z [m] above each node.
+typedef void (*WaterAtNodes)(const void *context, double time, int count, const Vec3 *position,
+                             Vec3 *velocity, Vec3 *acceleration, double *elevation);
+
+typedef struct WaterField {
+    WaterAtNodes at_nodes; ///< NULL = still water at `level`
+    const void *context;
+    double level;   ///< still-water level [m]
+    double density; ///< [kg/m^3]
+    double gravity; ///< [m/s^2]
+    double bed;     ///< z of the bed [m]
+} WaterField;
+
+/// One line with its nodes; node 0 is the anchor end, node `segments` the fairlead end.
+typedef struct Line {
+    const LineScene *scene;
+    int node_count;      ///< segments + 1
+    double segment_length; ///< unstretched [m]
+    Vec3 *position;      ///< [node_count][m]
+    Vec3 *velocity;      ///< [node_count][m/s]
+    double *tension;     ///< [segments][N], axial plus internal damping, never negative
+    Vec3 fairlead_force; ///< the line's pull on what holds its fairlead [N], mean over the last step
+    Vec3 anchor_force;   ///< the same at the anchor [N]
+    double largest_tension; ///< so far [N]
+    double touchdown;    ///< length lying on the bed [m]
+    double step_limit;   ///< explicit limit of the sub-step [s]
+    long substeps;       ///< taken so far
+    void *workspace;     ///< the stepper's own arrays
+} Line;
+
+/// What the statics say about a line, for `explain`.
+typedef struct LineStatics {
+    double fairlead_tension, anchor_tension; ///< [N]
+    double horizontal_force;                 ///< [N]
+    double touchdown;                        ///< length on the bed [m]
+    double stretched_length;                 ///< [m]
+    double span, reach;                      ///< end-to-end distance; unstretched length [m]
+} LineStatics;
+
+/// Elastic catenary between two points over a flat bed (Jonkman 2007; Irvine 1981), robust for
+/// slack, taut, vertical and heaped lines.
+/// @param nodes   filled with `segments`+1 positions, anchor first; may be NULL
+/// @return false with ERROR_INPUT (naming `where`) when the line cannot reach or does not converge
+bool line_statics(const LineScene *line, Vec3 anchor, Vec3 fairlead, const WaterField *water,
+                  const char *where, Vec3 *nodes, LineStatics *statics, Error *error);
+
+/// Arrays and static start of one line.
+bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const WaterField *water,
+                 const char *where, Arena *arena, Line *line, LineStatics *statics, Error *error);
+
+/// Motion of an end over a fluid step: cubic Hermite between two instants, so that the line sees a
+/// smooth path (piecewise-linear paths make spikes of sqrt(EA w) dv).
+typedef struct EndPath {
+    Vec3 position[2]; ///< at begin and end of the step [m]
+    Vec3 velocity[2]; ///< [m/s]
+} EndPath;
+
+/// Advance from `time` over `duration`, sub-stepping below the stable limit; leaves the step-averaged
+/// end forces in the line.
+/// @return false with ERROR_PHYSICS naming line, node and value when something is not finite
+bool line_advance(Line *line, const WaterField *water, double time, double duration,
+                  const EndPath *anchor, const EndPath *fairlead, Error *error);
+
+/// Doubles needed to save or restore a line's state, and both directions.
+size_t line_state_size(const Line *line);
+void line_state_save(const Line *line, double *to);
+void line_state_restore(Line *line, const double *from);
+
+#endif

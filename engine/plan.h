@@ -1,0 +1,79 @@
+/// What a scene makes the engine do: passes, the compiled sweep variant, arrays, time step. It is
+/// printable data: `fairlead explain` prints it.
+#ifndef FAIRLEAD_PLAN_H
+#define FAIRLEAD_PLAN_H
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "hull.h"
+#include "mooring.h"
+#include "scene.h"
+#include "snapshot.h"
+
+typedef enum EffectKind { EFFECT_PAIR, EFFECT_PASS } EffectKind;
+
+typedef enum EffectId {
+#define EFFECT(id, name, kind, source) EFFECT_##id,
+#include "effects.def"
+#undef EFFECT
+    EFFECT_COUNT
+} EffectId;
+
+typedef struct EffectPlan {
+    const char *name;
+    EffectKind kind;
+    const char *source;  ///< citation
+    bool active;
+    char because[160];   ///< what in the case calls for it, or why it is not needed
+    size_t bytes;        ///< of the arrays it brings
+    double step_limit;   ///< its own stable time step [s], INFINITY without
+} EffectPlan;
+
+typedef struct BodyPlan {
+    BodyGeometry geometry;
+    int particle_count;
+    Vec3 *particles; ///< geometry axes [particle_count][m]
+} BodyPlan;
+
+typedef struct LinePlan {
+    Vec3 anchor, fairlead; ///< at t = 0, world [m]
+    LineStatics statics;
+} LinePlan;
+
+typedef struct EngineOptions {
+    int threads;         ///< 0 = all cores
+    const char *backend; ///< "auto", "cpu" or "cuda"
+    size_t memory_limit; ///< [byte]; 0 = three quarters of the machine's
+} EngineOptions;
+
+typedef struct Plan {
+    EngineOptions options;
+    const char *backend;      ///< chosen: "cpu" …
+    char variant[64];         ///< compiled sweep and instruction level
+    unsigned pair_mask;       ///< bits of the active PAIR effects
+    EffectPlan effects[EFFECT_COUNT];
+    double smoothing_length;  ///< h [m]
+    double particle_mass;     ///< [kg], 2-D per metre
+    double sound_speed;       ///< c0 [m/s]
+    char sound_speed_because[160];
+    double time_step;         ///< [s]
+    char time_step_limit[64]; ///< which limit binds
+    double zone_width;        ///< [m], 0 without
+    int fluid_count, wall_count, body_particle_count;
+    BodyPlan *bodies;         ///< [scene->body_count]
+    LinePlan *lines;          ///< [scene->line_count]
+    size_t bytes;             ///< of State, all arrays
+    double predicted_slowness; ///< seconds of this machine per simulated second; NAN until measured
+    char warnings[1024];      ///< lines joined by "; "
+    Arena arena;              ///< owns everything above
+} Plan;
+
+/// Mesh the bodies, start the lines, count particles, choose the step.
+/// @return false with ERROR_INPUT (mesh, reach, memory …); the plan is then empty
+bool plan_build(const Scene *scene, const EngineOptions *options, Plan *plan, Error *error);
+void plan_destroy(Plan *plan);
+
+/// Time a few steps of this plan to fill predicted_slowness (takes about a second).
+bool plan_predict(const Scene *scene, Plan *plan, Error *error);
+
+#endif

@@ -1,0 +1,221 @@
+/// Everything a case says, in SI units and radians, constant after load. Values that may be steered
+/// live (wave height, period, heading) are *initial* values here.
+///
+/// Axes, once and for all: right-handed, z up, still water at z = 0 unless the case fills the tank
+/// otherwise, x forward. Headings are directions the waves travel *to*: 0 along +x, 90 deg along +y.
+/// Attitudes are intrinsic yaw-pitch-roll angles; quaternions are (w, x, y, z), body to world.
+#ifndef FAIRLEAD_SCENE_H
+#define FAIRLEAD_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/portable.h"
+
+enum {
+    SCENE_NAME_SIZE = 48,
+    SCENE_PATH_SIZE = 512,
+    SCENE_BODIES_MAX = 32,
+    SCENE_LINES_MAX = 64,
+    SCENE_GAUGES_MAX = 32,
+    SCENE_PRESSURE_PROBES_MAX = 64,
+    SCENE_FLUID_BLOCKS_MAX = 16,
+    SCENE_POLYGON_MAX = 256,
+};
+
+typedef enum DomainKind {
+    DOMAIN_TANK,  ///< closed by walls on all sides and the bed
+    DOMAIN_FLUME, ///< piston at x min, damping beach at x max, walls at y
+    DOMAIN_BASIN, ///< ring of wave-driven columns and relaxation zone on all lateral sides
+} DomainKind;
+
+typedef struct Domain {
+    DomainKind kind;
+    int dimensions; ///< 3, or 2 for the x-z plane (y is then ignored)
+    Vec3 min;       ///< lower corner of the water's room [m]; min.z is the bed
+    Vec3 max;       ///< upper corner [m]; max.z is the top of walls (tank) or of the ring (basin)
+} Domain;
+
+typedef struct FluidBlock {
+    Vec3 min, max; ///< box filled with water at t = 0 [m]
+} FluidBlock;
+
+typedef struct Fluid {
+    double spacing;         ///< initial particle distance dp [m], > 0
+    double smoothing_ratio; ///< h/dp, 1.2 to 3
+    double density;         ///< rest density [kg/m^3]
+    double alpha;           ///< artificial viscosity [-]
+    double delta;           ///< density diffusion [-]
+    double sound_speed;     ///< c0 [m/s]; 0 = by the rule (see plan.h)
+    double sound_speed_ratio; ///< rule: c0 = ratio * largest expected speed, 7 to 20
+    double gravity;           ///< [m/s^2], downwards
+    double level;             ///< still-water level z [m]
+    int block_count;          ///< 0 = the whole domain is filled up to `level`
+    FluidBlock blocks[SCENE_FLUID_BLOCKS_MAX];
+} Fluid;
+
+typedef enum WaveKind { WAVES_NONE, WAVES_REGULAR } WaveKind;
+typedef enum WaveStart { WAVE_START_RAMP, WAVE_START_HOT } WaveStart;
+
+/// A regular wave as the user names it.
+typedef struct WaveTarget {
+    double height;  ///< crest to trough H [m]
+    double period;  ///< T [s]
+    double heading; ///< direction of travel [rad]
+} WaveTarget;
+
+typedef struct Range {
+    double min, max;
+} Range;
+
+typedef struct Waves {
+    WaveKind kind;
+    WaveTarget initial;
+    WaveStart start;
+    double ramp_time;     ///< time to grow from rest [s] (ramp start)
+    double blend_periods; ///< length of a live change in periods [-], default 1.5
+    double zone_width;    ///< relaxation zone [m]; 0 = 0.75 of the longest allowed wave length
+    Range height_limits;  ///< what may be set live [m]
+    Range period_limits;  ///< [s]
+    Range heading_limits; ///< [rad]
+} Waves;
+
+typedef enum BodyShape {
+    BODY_BOX,      ///< size: length x, breadth y, height z; origin at its centre
+    BODY_SPHERE,   ///< radius; origin at its centre
+    BODY_CYLINDER, ///< radius, length, axis 0|1|2; origin at its centre
+    BODY_WIGLEY,   ///< size: length, beam, depth; draft_design; origin midship on the keel
+    BODY_POLYGON,  ///< closed x-z section (any winding), extruded over `breadth` in y when 3-D
+    BODY_MESH,     ///< STL or OBJ file, closed and outward oriented, times `scale`
+} BodyShape;
+
+typedef enum FreedomKind {
+    FREEDOM_FREE,
+    FREEDOM_FIXED,
+    FREEDOM_PRESCRIBED, ///< amplitude * sin(2 pi t / period + phase) about the reference pose
+    FREEDOM_SPRING,     ///< free, with -stiffness (x - rest) - damping v added
+} FreedomKind;
+
+/// One of the six degrees of freedom: surge, sway, heave [m]; roll, pitch, yaw [rad].
+typedef struct Freedom {
+    FreedomKind kind;
+    double amplitude;       ///< [m] or [rad]
+    double period, phase;   ///< [s], [rad]
+    double stiffness, rest; ///< [N/m] or [N m/rad]; [m] or [rad]
+    double damping;         ///< [N s/m] or [N m s/rad]
+} Freedom;
+
+typedef struct BodyScene {
+    char name[SCENE_NAME_SIZE];
+    BodyShape shape;
+    Vec3 size;
+    double radius, length;
+    int axis;
+    double draft_design;
+    double breadth;
+    int polygon_count;
+    double polygon[SCENE_POLYGON_MAX][2]; ///< x, z [m]
+    char mesh_path[SCENE_PATH_SIZE];      ///< resolved against the case's folder
+    double scale;
+
+    Vec3 position;       ///< of the geometry's origin [m]; z is NAN when it follows from draft or mass
+    Vec3 attitude;       ///< roll, pitch, yaw [rad]
+    double mass;         ///< [kg]; NAN = the mass of the water displaced at `draft`
+    double draft;        ///< lowest point below still water [m]; NAN = not given
+    Vec3 centre_of_gravity;   ///< in geometry axes [m]; NANs = the volume's centroid
+    Vec3 radii_of_gyration;   ///< about the centre of gravity [m]; NANs = not given
+    double inertia[6];        ///< xx yy zz xy xz yz [kg m^2] about the centre of gravity; NANs = not
+                              ///< given (then radii, else a homogeneous body)
+    Freedom freedoms[6];      ///< surge sway heave roll pitch yaw
+    double initial_offset[6]; ///< added to the reference pose at t = 0 [m], [rad]
+    double initial_velocity[6]; ///< [m/s], [rad/s]
+    double hold_time;           ///< held at its initial pose for this long [s]
+    double colour[3];           ///< for pictures, 0..1
+} BodyScene;
+
+/// An end of a line: a point fixed on earth or on a body.
+typedef struct LineEnd {
+    int body;      ///< index into bodies, -1 = earth
+    Vec3 position; ///< [m], world axes (earth) or the body's geometry axes
+} LineEnd;
+
+typedef struct LineScene {
+    char name[SCENE_NAME_SIZE];
+    LineEnd anchor, fairlead;
+    double length;           ///< unstretched [m]
+    double axial_stiffness;  ///< EA [N]
+    double mass_per_length;  ///< in air [kg/m]
+    double diameter;         ///< volume-equivalent [m]
+    double drag_normal;      ///< Cdn [-]
+    double drag_tangential;  ///< Cdt [-]
+    double added_normal;     ///< Can [-]
+    double added_tangential; ///< Cat [-]
+    double damping_ratio;    ///< internal damping, fraction of critical per segment [-]
+    int segments;
+    double bed_stiffness; ///< kb [Pa/m]: force per area and penetration
+    double bed_damping;   ///< cb [Pa s/m]
+    double bed_friction;  ///< Coulomb coefficient [-]
+} LineScene;
+
+typedef struct GaugeScene {
+    char name[SCENE_NAME_SIZE];
+    double x, y; ///< [m]
+} GaugeScene;
+
+typedef struct PressureProbeScene {
+    char name[SCENE_NAME_SIZE];
+    int body;      ///< index into bodies, -1 = earth (fixed in the world)
+    Vec3 position; ///< [m], world or geometry axes
+} PressureProbeScene;
+
+typedef struct Outputs {
+    double series_interval; ///< time between samples [s]
+} Outputs;
+
+/// First look of the camera at the scene.
+typedef struct CameraScene {
+    Vec3 target;          ///< [m]; NANs = the bodies' centre, or the domain's
+    double distance;      ///< [m]; NAN = fits the scene
+    double azimuth;       ///< [rad], where the eye stands as seen from the target, from +x to +y
+    double elevation;     ///< [rad] above the horizon
+} CameraScene;
+
+typedef struct Scene {
+    char name[SCENE_NAME_SIZE]; ///< file name without folder and extension
+    char title[160];
+    char path[SCENE_PATH_SIZE]; ///< the case file
+    uint64_t hash;              ///< FNV-1a 64 of the case's text after --set (canonical printing)
+    Domain domain;
+    Fluid fluid;
+    Waves waves;
+    int body_count;
+    BodyScene bodies[SCENE_BODIES_MAX];
+    int line_count;
+    LineScene lines[SCENE_LINES_MAX];
+    int gauge_count;
+    GaugeScene gauges[SCENE_GAUGES_MAX];
+    int pressure_probe_count;
+    PressureProbeScene pressure_probes[SCENE_PRESSURE_PROBES_MAX];
+    Outputs outputs;
+    CameraScene camera;
+} Scene;
+
+/// Defaults for everything; required numbers are NAN so that scene_check refuses them.
+/// (scene_default.c; each value stands beside its source)
+Scene scene_default(void);
+BodyScene body_scene_default(void);
+LineScene line_scene_default(void);
+
+/// Read, override and check a case.
+/// @param path           the case file (JSON)
+/// @param overrides      "path.to.key=value" or "bodies[0].mass_kg=3" or "bodies.ship.mass_kg=3", value
+///                       in JSON or a bare word [override_count], borrowed
+/// @param scene          filled only on success
+/// @return false with ERROR_INPUT naming the JSON path, the value and the accepted range
+bool scene_load(const char *path, const char *const *overrides, int override_count, Scene *scene,
+                Error *error);
+
+#endif
