@@ -8,23 +8,23 @@
 
 /// Plain data; a checkpoint copies it.
 typedef struct Body {
-    Vec3 position;      ///< of the centre of gravity, world [m]
-    Quat attitude;      ///< geometry axes to world
-    Vec3 velocity;      ///< of the centre of gravity [m/s]
-    Vec3 angular_velocity; ///< world axes [rad/s]
-    Vec3 acceleration;     ///< of the last step [m/s^2], used by the dummy extrapolation
+    Vec3 position;             ///< of the centre of gravity, world [m]
+    Quat attitude;             ///< geometry axes to world
+    Vec3 velocity;             ///< of the centre of gravity [m/s]
+    Vec3 angular_velocity;     ///< world axes [rad/s]
+    Vec3 acceleration;         ///< of the last step [m/s^2], used by the dummy extrapolation
     Vec3 angular_acceleration; ///< world axes [rad/s^2]
-    Vec3 fluid_force;   ///< of the last step [N]
-    Vec3 fluid_moment;  ///< about the centre of gravity, world axes [N m]
-    Vec3 line_force;    ///< [N]
-    Vec3 line_moment;   ///< [N m]
+    Vec3 fluid_force;          ///< of the last step [N]
+    Vec3 fluid_moment;         ///< about the centre of gravity, world axes [N m]
+    Vec3 line_force;           ///< [N]
+    Vec3 line_moment;          ///< [N m]
     // constant after creation
     Vec3 reference_position; ///< of the centre of gravity [m]
     Quat reference_attitude;
-    Vec3 centre_of_gravity;  ///< geometry axes [m]
+    Vec3 centre_of_gravity; ///< geometry axes [m]
     double mass;
-    double inertia[3][3];    ///< geometry axes, about the centre of gravity [kg m^2]
-    bool moving;             ///< any degree of freedom that is not fixed
+    double inertia[3][3]; ///< geometry axes, about the centre of gravity [kg m^2]
+    bool moving;          ///< any degree of freedom that is not fixed
 } Body;
 
 /// Motions as a naval engineer reads them: surge, sway, heave [m] along the axes of the initial

@@ -26,16 +26,16 @@ typedef struct MeshProperties {
 
 /// What still water does to a body in a given pose.
 typedef struct Hydrostatics {
-    double draft;           ///< lowest point below still water [m]
-    double mass;            ///< of the body [kg]
-    double displacement;    ///< displaced volume [m^3]
-    Vec3 centre_of_buoyancy; ///< geometry axes [m]
-    double waterplane_area; ///< [m^2]
-    double gm_transverse;   ///< metacentric height [m]
-    double gm_longitudinal; ///< [m]
+    double draft;                                   ///< lowest point below still water [m]
+    double mass;                                    ///< of the body [kg]
+    double displacement;                            ///< displaced volume [m^3]
+    Vec3 centre_of_buoyancy;                        ///< geometry axes [m]
+    double waterplane_area;                         ///< [m^2]
+    double gm_transverse;                           ///< metacentric height [m]
+    double gm_longitudinal;                         ///< [m]
     double heave_period, roll_period, pitch_period; ///< [s], without added mass; NAN if unstable
-    double trim_moment;     ///< about y through the centre of gravity at this pose [N m], bow-down > 0
-    double heel_moment;     ///< about x [N m]
+    double trim_moment; ///< about y through the centre of gravity at this pose [N m], bow-down > 0
+    double heel_moment; ///< about x [N m]
 } Hydrostatics;
 
 /// A body ready for the engine: shape, mass properties, resting pose.
@@ -70,14 +70,15 @@ Hydrostatics mesh_hydrostatics(const TriangleMesh *mesh, Vec3 origin, Quat attit
                                Vec3 centre_of_gravity, double mass, const double inertia[3][3],
                                double level, double density, double gravity);
 
-/// Mesh, mass, centre of gravity, inertia and reference pose of body `index`; solves draft from mass
-/// or mass from draft. Errors name `bodies[index]…`.
+/// Mesh, mass, centre of gravity, inertia and reference pose of body `index`; solves draft from
+/// mass or mass from draft. Errors name `bodies[index]…`.
 bool body_geometry_create(const Scene *scene, int index, Arena *arena, BodyGeometry *geometry,
                           Error *error);
 
 /// Dummy particles that fill the hull to a depth of `thickness` below its skin, on the layers
 /// dp/2, 3dp/2, … so that the skin lies midway between fluid and dummies. Boxes are filled exactly;
-/// other hulls on a lattice whose outermost points are placed so that the particles' volume matches.
+/// other hulls on a lattice whose outermost points are placed so that the particles' volume
+/// matches.
 /// @param dimensions  2: particles on y = 0 only
 /// @param points      taken from the arena, geometry axes [count][m]
 /// @param count       number of points

@@ -25,18 +25,19 @@ typedef struct WaterField {
 /// One line with its nodes; node 0 is the anchor end, node `segments` the fairlead end.
 typedef struct Line {
     const LineScene *scene;
-    int node_count;      ///< segments + 1
+    int node_count;        ///< segments + 1
     double segment_length; ///< unstretched [m]
-    Vec3 *position;      ///< [node_count][m]
-    Vec3 *velocity;      ///< [node_count][m/s]
-    double *tension;     ///< [segments][N], axial plus internal damping, never negative
-    Vec3 fairlead_force; ///< the line's pull on what holds its fairlead [N], mean over the last step
-    Vec3 anchor_force;   ///< the same at the anchor [N]
+    Vec3 *position;        ///< [node_count][m]
+    Vec3 *velocity;        ///< [node_count][m/s]
+    double *tension;       ///< [segments][N], axial plus internal damping, never negative
+    Vec3
+        fairlead_force; ///< the line's pull on what holds its fairlead [N], mean over the last step
+    Vec3 anchor_force;  ///< the same at the anchor [N]
     double largest_tension; ///< so far [N]
-    double touchdown;    ///< length lying on the bed [m]
-    double step_limit;   ///< explicit limit of the sub-step [s]
-    long substeps;       ///< taken so far
-    void *workspace;     ///< the stepper's own arrays
+    double touchdown;       ///< length lying on the bed [m]
+    double step_limit;      ///< explicit limit of the sub-step [s]
+    long substeps;          ///< taken so far
+    void *workspace;        ///< the stepper's own arrays
 } Line;
 
 /// What the statics say about a line, for `explain`.
@@ -66,8 +67,8 @@ typedef struct EndPath {
     Vec3 velocity[2]; ///< [m/s]
 } EndPath;
 
-/// Advance from `time` over `duration`, sub-stepping below the stable limit; leaves the step-averaged
-/// end forces in the line.
+/// Advance from `time` over `duration`, sub-stepping below the stable limit; leaves the
+/// step-averaged end forces in the line.
 /// @return false with ERROR_PHYSICS naming line, node and value when something is not finite
 bool line_advance(Line *line, const WaterField *water, double time, double duration,
                   const EndPath *anchor, const EndPath *fairlead, Error *error);

@@ -22,11 +22,11 @@ typedef enum EffectId {
 typedef struct EffectPlan {
     const char *name;
     EffectKind kind;
-    const char *source;  ///< citation
+    const char *source; ///< citation
     bool active;
-    char because[160];   ///< what in the case calls for it, or why it is not needed
-    size_t bytes;        ///< of the arrays it brings
-    double step_limit;   ///< its own stable time step [s], INFINITY without
+    char because[160]; ///< what in the case calls for it, or why it is not needed
+    size_t bytes;      ///< of the arrays it brings
+    double step_limit; ///< its own stable time step [s], INFINITY without
 } EffectPlan;
 
 typedef struct BodyPlan {
@@ -48,24 +48,24 @@ typedef struct EngineOptions {
 
 typedef struct Plan {
     EngineOptions options;
-    const char *backend;      ///< chosen: "cpu" …
-    char variant[64];         ///< compiled sweep and instruction level
-    unsigned pair_mask;       ///< bits of the active PAIR effects
+    const char *backend; ///< chosen: "cpu" …
+    char variant[64];    ///< compiled sweep and instruction level
+    unsigned pair_mask;  ///< bits of the active PAIR effects
     EffectPlan effects[EFFECT_COUNT];
-    double smoothing_length;  ///< h [m]
-    double particle_mass;     ///< [kg], 2-D per metre
-    double sound_speed;       ///< c0 [m/s]
+    double smoothing_length; ///< h [m]
+    double particle_mass;    ///< [kg], 2-D per metre
+    double sound_speed;      ///< c0 [m/s]
     char sound_speed_because[160];
     double time_step;         ///< [s]
     char time_step_limit[64]; ///< which limit binds
     double zone_width;        ///< [m], 0 without
     int fluid_count, wall_count, body_particle_count;
-    BodyPlan *bodies;         ///< [scene->body_count]
-    LinePlan *lines;          ///< [scene->line_count]
-    size_t bytes;             ///< of State, all arrays
+    BodyPlan *bodies;          ///< [scene->body_count]
+    LinePlan *lines;           ///< [scene->line_count]
+    size_t bytes;              ///< of State, all arrays
     double predicted_slowness; ///< seconds of this machine per simulated second; NAN until measured
-    char warnings[1024];      ///< lines joined by "; "
-    Arena arena;              ///< owns everything above
+    char warnings[1024];       ///< lines joined by "; "
+    Arena arena;               ///< owns everything above
 } Plan;
 
 /// Mesh the bodies, start the lines, count particles, choose the step.

@@ -2,8 +2,8 @@
 /// live (wave height, period, heading) are *initial* values here.
 ///
 /// Axes, once and for all: right-handed, z up, still water at z = 0 unless the case fills the tank
-/// otherwise, x forward. Headings are directions the waves travel *to*: 0 along +x, 90 deg along +y.
-/// Attitudes are intrinsic yaw-pitch-roll angles; quaternions are (w, x, y, z), body to world.
+/// otherwise, x forward. Headings are directions the waves travel *to*: 0 along +x, 90 deg along
+/// +y. Attitudes are intrinsic yaw-pitch-roll angles; quaternions are (w, x, y, z), body to world.
 #ifndef FAIRLEAD_SCENE_H
 #define FAIRLEAD_SCENE_H
 
@@ -44,12 +44,12 @@ typedef struct FluidBlock {
 } FluidBlock;
 
 typedef struct Fluid {
-    double spacing;         ///< initial particle distance dp [m], > 0
-    double smoothing_ratio; ///< h/dp, 1.2 to 3
-    double density;         ///< rest density [kg/m^3]
-    double alpha;           ///< artificial viscosity [-]
-    double delta;           ///< density diffusion [-]
-    double sound_speed;     ///< c0 [m/s]; 0 = by the rule (see plan.h)
+    double spacing;           ///< initial particle distance dp [m], > 0
+    double smoothing_ratio;   ///< h/dp, 1.2 to 3
+    double density;           ///< rest density [kg/m^3]
+    double alpha;             ///< artificial viscosity [-]
+    double delta;             ///< density diffusion [-]
+    double sound_speed;       ///< c0 [m/s]; 0 = by the rule (see plan.h)
     double sound_speed_ratio; ///< rule: c0 = ratio * largest expected speed, 7 to 20
     double gravity;           ///< [m/s^2], downwards
     double level;             ///< still-water level z [m]
@@ -121,16 +121,16 @@ typedef struct BodyScene {
     char mesh_path[SCENE_PATH_SIZE];      ///< resolved against the case's folder
     double scale;
 
-    Vec3 position;       ///< of the geometry's origin [m]; z is NAN when it follows from draft or mass
-    Vec3 attitude;       ///< roll, pitch, yaw [rad]
-    double mass;         ///< [kg]; NAN = the mass of the water displaced at `draft`
-    double draft;        ///< lowest point below still water [m]; NAN = not given
-    Vec3 centre_of_gravity;   ///< in geometry axes [m]; NANs = the volume's centroid
-    Vec3 radii_of_gyration;   ///< about the centre of gravity [m]; NANs = not given
-    double inertia[6];        ///< xx yy zz xy xz yz [kg m^2] about the centre of gravity; NANs = not
-                              ///< given (then radii, else a homogeneous body)
-    Freedom freedoms[6];      ///< surge sway heave roll pitch yaw
-    double initial_offset[6]; ///< added to the reference pose at t = 0 [m], [rad]
+    Vec3 position; ///< of the geometry's origin [m]; z is NAN when it follows from draft or mass
+    Vec3 attitude; ///< roll, pitch, yaw [rad]
+    double mass;   ///< [kg]; NAN = the mass of the water displaced at `draft`
+    double draft;  ///< lowest point below still water [m]; NAN = not given
+    Vec3 centre_of_gravity; ///< in geometry axes [m]; NANs = the volume's centroid
+    Vec3 radii_of_gyration; ///< about the centre of gravity [m]; NANs = not given
+    double inertia[6];      ///< xx yy zz xy xz yz [kg m^2] about the centre of gravity; NANs = not
+                            ///< given (then radii, else a homogeneous body)
+    Freedom freedoms[6];    ///< surge sway heave roll pitch yaw
+    double initial_offset[6];   ///< added to the reference pose at t = 0 [m], [rad]
     double initial_velocity[6]; ///< [m/s], [rad/s]
     double hold_time;           ///< held at its initial pose for this long [s]
     double colour[3];           ///< for pictures, 0..1
@@ -177,10 +177,10 @@ typedef struct Outputs {
 
 /// First look of the camera at the scene.
 typedef struct CameraScene {
-    Vec3 target;          ///< [m]; NANs = the bodies' centre, or the domain's
-    double distance;      ///< [m]; NAN = fits the scene
-    double azimuth;       ///< [rad], where the eye stands as seen from the target, from +x to +y
-    double elevation;     ///< [rad] above the horizon
+    Vec3 target;      ///< [m]; NANs = the bodies' centre, or the domain's
+    double distance;  ///< [m]; NAN = fits the scene
+    double azimuth;   ///< [rad], where the eye stands as seen from the target, from +x to +y
+    double elevation; ///< [rad] above the horizon
 } CameraScene;
 
 typedef struct Scene {
@@ -211,7 +211,8 @@ LineScene line_scene_default(void);
 
 /// Read, override and check a case.
 /// @param path           the case file (JSON)
-/// @param overrides      "path.to.key=value" or "bodies[0].mass_kg=3" or "bodies.ship.mass_kg=3", value
+/// @param overrides      "path.to.key=value" or "bodies[0].mass_kg=3" or "bodies.ship.mass_kg=3",
+/// value
 ///                       in JSON or a bare word [override_count], borrowed
 /// @param scene          filled only on success
 /// @return false with ERROR_INPUT naming the JSON path, the value and the accepted range

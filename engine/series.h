@@ -14,8 +14,8 @@ typedef struct SeriesTable {
     char names[SERIES_COLUMNS_MAX][SERIES_COLUMN_SIZE];
 } SeriesTable;
 
-/// Columns of a scene, in the order: t_s; per body surge_m sway_m heave_m roll_deg pitch_deg yaw_deg
-/// fluid_fx_n fluid_fy_n fluid_fz_n fluid_mx_nm fluid_my_nm fluid_mz_nm; per line
+/// Columns of a scene, in the order: t_s; per body surge_m sway_m heave_m roll_deg pitch_deg
+/// yaw_deg fluid_fx_n fluid_fy_n fluid_fz_n fluid_mx_nm fluid_my_nm fluid_mz_nm; per line
 /// fairlead_tension_n anchor_tension_n largest_tension_n touchdown_m; per gauge elevation_m; per
 /// pressure probe pressure_pa.
 void series_table(const Scene *scene, SeriesTable *table);

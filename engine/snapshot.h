@@ -10,8 +10,8 @@
 enum { EFFECTS_MAX = 32, SNAPSHOT_LINE_NODES_MAX = 257 };
 
 typedef struct BodySnapshot {
-    Vec3 origin;   ///< of the geometry axes, world [m]
-    Quat attitude; ///< geometry to world
+    Vec3 origin;              ///< of the geometry axes, world [m]
+    Quat attitude;            ///< geometry to world
     const TriangleMesh *mesh; ///< constant while the engine lives, borrowed
     double colour[3];
 } BodySnapshot;
@@ -31,10 +31,10 @@ typedef struct EffectShare {
 typedef enum HealthStatus { HEALTH_GOOD, HEALTH_RECOVERED, HEALTH_FAILED } HealthStatus;
 
 typedef struct Snapshot {
-    double time;        ///< simulated [s]
+    double time; ///< simulated [s]
     int64_t step;
-    double time_step;   ///< last [s]
-    double wall_time;   ///< spent stepping [s]
+    double time_step; ///< last [s]
+    double wall_time; ///< spent stepping [s]
     int64_t particle_steps;
     int fluid_count, boundary_count;
     float (*position)[3]; ///< [fluid_count][m], world
@@ -61,7 +61,7 @@ typedef struct Snapshot {
 
     Domain domain; ///< copied from the scene, for pictures
     double level;
-    double zone_width; ///< of the relaxation zone [m], 0 without
+    double zone_width;   ///< of the relaxation zone [m], 0 without
     void *storage;       ///< owned memory of the arrays above
     size_t storage_size; ///< [byte]
 } Snapshot;

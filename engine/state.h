@@ -18,19 +18,19 @@ typedef struct HealthRecord {
 } HealthRecord;
 
 typedef struct State {
-    double time;      ///< simulated [s]
+    double time; ///< simulated [s]
     int64_t step;
     double time_step; ///< in use now [s]
     WaveState waves;
-    Body *bodies;     ///< [scene->body_count]
-    Line *lines;      ///< [scene->line_count]
+    Body *bodies; ///< [scene->body_count]
+    Line *lines;  ///< [scene->line_count]
     HealthRecord health;
-    double wall_time; ///< spent in step_advance [s]
-    double smallest_step, largest_step; ///< used so far [s]
+    double wall_time;                            ///< spent in step_advance [s]
+    double smallest_step, largest_step;          ///< used so far [s]
     double density_error, largest_density_error; ///< |rho/rho0 - 1| now and so far [-]
-    double largest_speed;                ///< of the fluid now [m/s]
-    double effect_seconds[EFFECT_COUNT]; ///< wall time spent in each effect so far [s]
-    double base_seconds;                 ///< pressure forces, integration, sorting [s]
+    double largest_speed;                        ///< of the fluid now [m/s]
+    double effect_seconds[EFFECT_COUNT];         ///< wall time spent in each effect so far [s]
+    double base_seconds;                         ///< pressure forces, integration, sorting [s]
     Arena arena;
 } State;
 

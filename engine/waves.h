@@ -9,9 +9,9 @@
 /// One regular wave train, ready for evaluation:
 /// theta = k (x cos + y sin) - omega (t - time_origin) + phase.
 typedef struct WaveTrain {
-    double amplitude;          ///< a = H/2 [m]
-    double wave_number;        ///< k [1/m]
-    double angular_frequency;  ///< omega [rad/s]
+    double amplitude;         ///< a = H/2 [m]
+    double wave_number;       ///< k [1/m]
+    double angular_frequency; ///< omega [rad/s]
     double cos_heading, sin_heading;
     double phase;              ///< at the centre of the basin [rad] and `time_origin`
     double time_origin;        ///< [s]
@@ -25,13 +25,13 @@ typedef struct WaveTrain {
 /// blend_periods of the new period; when the heading turns far (over 60 deg) the old train is taken
 /// down first and the new one raised after it.
 typedef struct WaveState {
-    WaveTarget asked;      ///< the last command
-    WaveTrain from, to;    ///< trains before and after the current change
-    double change_begin;   ///< [s]
-    double from_end;       ///< `from` has faded out by then [s]
+    WaveTarget asked;        ///< the last command
+    WaveTrain from, to;      ///< trains before and after the current change
+    double change_begin;     ///< [s]
+    double from_end;         ///< `from` has faded out by then [s]
     double to_begin, to_end; ///< `to` grows in between [s]
-    bool active;           ///< a change (or the starting ramp) is under way
-    bool has_queued;       ///< another command came during the change
+    bool active;             ///< a change (or the starting ramp) is under way
+    bool has_queued;         ///< another command came during the change
     WaveTarget queued;
 } WaveState;
 
@@ -41,7 +41,8 @@ double wave_number_airy(double angular_frequency, double depth, double gravity);
 /// Trains at t = 0 (hot start: full height at once; ramp: grows over ramp_time).
 WaveState waves_create(const Scene *scene);
 
-/// Ask for another sea; phases are matched at the basin's centre. The caller has checked the limits.
+/// Ask for another sea; phases are matched at the basin's centre. The caller has checked the
+/// limits.
 void waves_command(WaveState *waves, const Scene *scene, const WaveTarget *target, double time);
 
 /// Finish changes that are over and start queued ones; call once per step.
@@ -51,8 +52,8 @@ void waves_update(WaveState *waves, const Scene *scene, double time);
 void waves_weights(const WaveState *waves, double time, double *from, double *to);
 WaveTarget waves_now(const WaveState *waves, double time);
 
-/// Second-order closed-orbit displacement of the column point whose mean place is `mean` (physics.md,
-/// basin), and its velocity by central differences in time.
+/// Second-order closed-orbit displacement of the column point whose mean place is `mean`
+/// (physics.md, basin), and its velocity by central differences in time.
 Vec3 waves_displacement(const WaveState *waves, Vec3 mean, double time);
 Vec3 waves_orbit_velocity(const WaveState *waves, Vec3 mean, double time);
 

@@ -1,4 +1,5 @@
-/// Snapshot → pixels → JPEG/PNG, off-screen. One Render owns one GL context and is used by one thread.
+/// Snapshot → pixels → JPEG/PNG, off-screen. One Render owns one GL context and is used by one
+/// thread.
 #ifndef FAIRLEAD_RENDER_H
 #define FAIRLEAD_RENDER_H
 
@@ -22,10 +23,10 @@ typedef enum ColourField {
 
 /// Orbit camera.
 typedef struct Camera {
-    Vec3 target;      ///< [m]
-    double distance;  ///< [m], > 0
-    double azimuth;   ///< where the eye stands seen from the target, from +x to +y [rad]
-    double elevation; ///< above the horizon [rad], -pi/2..pi/2
+    Vec3 target;          ///< [m]
+    double distance;      ///< [m], > 0
+    double azimuth;       ///< where the eye stands seen from the target, from +x to +y [rad]
+    double elevation;     ///< above the horizon [rad], -pi/2..pi/2
     double field_of_view; ///< vertical [rad]
 } Camera;
 
@@ -34,8 +35,8 @@ typedef struct ViewOptions {
     int width, height; ///< [pixel], 16 to 4096
     WaterMode water;
     ColourField field;
-    bool dark;         ///< sky and overlay colours for a dark page
-    bool overlay;      ///< time and wave as text, colour bars
+    bool dark;    ///< sky and overlay colours for a dark page
+    bool overlay; ///< time and wave as text, colour bars
 } ViewOptions;
 
 ViewOptions view_options_default(void);
