@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# clang-tidy has nothing to say about engine, render and server.
+#   tidy.sh BUILD [CHECKS]
+# BUILD has compile_commands.json. A file is looked at again only when it, a header, .clang-tidy or its
+# flags changed: what was clean is remembered in BUILD/tidy.
+set -euo pipefail
+. "$(dirname -- "$0")/files.sh"
+
+build=$1 checks=${2:-}
+tool=$(command -v clang-tidy-14 || command -v clang-tidy || true)
+if [ -z "$tool" ]; then
+    echo "no clang-tidy here"
+    exit "$SKIPPED"
+fi
+
+mkdir -p "$build/tidy"
+common=$({
+    own_files '*.h' '*.def' '.clang-tidy' | tr '\n' '\0' | xargs -0 cat
+    cat "$build/compile_commands.json"
+    echo "$checks"
+} | sha256sum | cut -d' ' -f1)
+# omp.h is gcc's; it comes after clang's own headers.
+gcc_headers=$(gcc -print-file-name=include)
+
+look_at() {
+    local file=$1 stamp digest
+    stamp=$build/tidy/$(tr '/' '_' <<<"$file")${checks:+.deep}
+    digest=$common-$(sha256sum <"$file")
+    [ "$(cat "$stamp" 2>/dev/null)" != "$digest" ] || return 0
+    if "$tool" -p "$build" --quiet ${checks:+"--checks=$checks"} \
+        --extra-arg=-Wno-unknown-warning-option --extra-arg=-idirafter"$gcc_headers" \
+        "$file" 2>"$stamp.err"; then
+        printf '%s\n' "$digest" >"$stamp"
+    else
+        # Without a finding the complaint is clang-tidy's own.
+        grep -E 'error:' "$stamp.err" || true
+        return 1
+    fi
+}
+export -f look_at
+export build checks tool common gcc_headers
+
+# shellcheck disable=SC2016 # the inner shell expands it
+own_files 'engine/*.c' 'render/*.c' 'server/*.c' | tr '\n' '\0' |
+    xargs -0 -n 1 -P "$(nproc)" bash -c 'look_at "$1"' look_at
