@@ -1,0 +1,139 @@
+/// What the engine asks of a machine that moves particles: one table of functions per backend. The
+/// backend owns the particles; the engine owns time, waves, bodies and lines.
+///
+/// A step is: forces → (bodies and lines advance on the host) → advance.
+/// Time stepping (leapfrog of velocity and density, each pair sum evaluated once a step):
+///     v^{n+1/2} = v^{n-1/2} + dt a(x^n, rho^n)
+///     x^{n+1/2} = x^n + dt/2 v^{n+1/2};  rho^{n+1} = rho^n + dt (drho/dt)(x^{n+1/2}, v^{n+1/2})
+///     x^{n+1}   = x^{n+1/2} + dt/2 v^{n+1/2}
+/// stable to c0 dt/h of about 1.2 (docs/performance.md).
+#ifndef FAIRLEAD_BACKEND_H
+#define FAIRLEAD_BACKEND_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/portable.h"
+
+/// Who moves a dummy particle; bodies are 0, 1, …
+enum { OWNER_FIXED = -3, OWNER_PISTON = -2, OWNER_RING = -1 };
+
+/// Where particles are at t = 0. All arrays are borrowed during create.
+typedef struct ParticleStart {
+    int fluid_count;
+    const Vec3 *fluid_position; ///< [m]
+    const Vec3 *fluid_velocity; ///< [m/s]
+    const float *fluid_excess;  ///< rho/rho0 - 1 [-]
+    int dummy_count;
+    const Vec3
+        *dummy_reference; ///< fixed: place; ring, piston: mean place; bodies: geometry axes [m]
+    const int16_t *dummy_owner; ///< OWNER_… or a body's index
+} ParticleStart;
+
+typedef struct BackendSetup {
+    int dimensions, threads, body_count;
+    double room_min[3], room_max[3];                 ///< all that coordinates must reach [m]
+    double spacing, smoothing_length, particle_mass; ///< [m], [m], [kg]
+    double rest_density, sound_speed, alpha, delta;
+    double gravity, level; ///< [m/s^2], still-water z [m]
+    double largest_travel; ///< expected per step, for the skin [m]
+    unsigned pair_mask;    ///< PAIR_… bits
+} BackendSetup;
+
+/// Force and moment of the fluid on a body; moment about `about` of the same call.
+typedef struct BodyLoad {
+    Vec3 force, moment; ///< [N], [N m], per metre in 2-D
+} BodyLoad;
+
+/// Pose of a body's geometry axes in the world.
+typedef struct BodyPose {
+    Vec3 origin;
+    Quat attitude;
+} BodyPose;
+
+/// Targets of moving dummies: places at `time` of points whose mean places are given.
+typedef void (*MovePoints)(const void *context, double time, int count, const Vec3 *mean,
+                           Vec3 *place);
+/// Velocities the relaxation zone aims at, float arrays [count], metres and m/s.
+typedef void (*ZoneVelocity)(const void *context, double time, int count, const float *x,
+                             const float *y, const float *z, float *u, float *v, float *w);
+
+/// A band along lateral sides in which velocities are drawn towards a target.
+typedef struct RelaxationZone {
+    double width;      ///< [m]; 0 = none
+    double time_scale; ///< tau [s]
+    double side_min[2],
+        side_max[2];     ///< x, y of the sides from which distance counts [m]; +-1e30 = none
+    ZoneVelocity target; ///< NULL = water at rest (a beach)
+} RelaxationZone;
+
+typedef struct Advance {
+    double time, dt;         ///< at the beginning of the step [s]
+    const BodyPose *poses;   ///< at the end of the step [body_count]
+    const void *waves;       ///< context of the calls below
+    MovePoints ring, piston; ///< NULL when not in the plan
+    RelaxationZone zone;
+} Advance;
+
+/// What health asks after a step.
+typedef struct ParticleSums {
+    double largest_speed;                   ///< [m/s]
+    double smallest_excess, largest_excess; ///< rho/rho0 - 1 [-]
+    int sick;                               ///< id of a particle with a not-a-number, -1 = none
+    int escaped;                            ///< id of a particle that left the room, -1 = none
+    int lost_count;                         ///< particles beyond walls or bed
+} ParticleSums;
+
+/// Wall time of the last forces + advance [s], by what it was spent on.
+typedef enum BackendClock {
+    CLOCK_SORT,
+    CLOCK_EXTRAPOLATE,
+    CLOCK_MOMENTUM,
+    CLOCK_DENSITY,
+    CLOCK_LOADS,
+    CLOCK_DUMMIES,
+    CLOCK_INTEGRATE,
+    CLOCK_ZONE,
+    CLOCK_COUNT
+} BackendClock;
+
+typedef struct Backend Backend; ///< opaque: the backend's own data
+
+typedef struct BackendTable {
+    const char *name;
+    bool (*create)(const BackendSetup *setup, const ParticleStart *start, Arena *arena,
+                   Backend **backend, Error *error);
+    void (*destroy)(Backend *backend);
+    /// "x86-64-v4" …
+    const char *(*variant)(const Backend *backend);
+    /// Sums of accelerations at the present places; fluid loads on bodies about `about`.
+    bool (*forces)(Backend *backend, const Vec3 *about, BodyLoad *loads, Error *error);
+    void (*advance)(Backend *backend, const Advance *advance, ParticleSums *sums);
+    /// Fluid in the order of creation, world positions; any pointer may be NULL.
+    void (*download)(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
+    /// Highest z at which the water's colour function crosses one half above (x, y); NAN if dry
+    /// [m].
+    double (*elevation)(Backend *backend, double x, double y);
+    /// Shepard-interpolated pressure at a point [Pa]; 0 where dry.
+    double (*pressure)(Backend *backend, Vec3 point);
+    /// Everything that changes, for roll-back.
+    size_t (*state_size)(const Backend *backend);
+    void (*save)(const Backend *backend, void *to);
+    void (*restore)(Backend *backend, const void *from);
+    const double *(*clocks)(const Backend *backend); ///< [CLOCK_COUNT] sums since creation [s]
+    /// Relative extra time of a pair effect's bit in its sweep, measured on the present state [-].
+    double (*pair_cost)(Backend *backend, unsigned bit);
+    /// Acceleration [m/s^2] and (drho/dt)/rho0 [1/s] of each particle, in order of creation; for
+    /// tests.
+    bool (*probe_rates)(Backend *backend, float (*acceleration)[3], float *density_rate,
+                        Error *error);
+} BackendTable;
+
+/// The table for "auto", "cpu" or "cuda". @return NULL with ERROR_INPUT when it is not there
+const BackendTable *backend_choose(const char *name, Error *error);
+const BackendTable *backend_cpu(void);
+const BackendTable *backend_cuda(void); ///< NULL where CUDA was not built
+
+#endif

@@ -1,0 +1,327 @@
+/// The CPU backend: creation, neighbours, forces. Integration is in cpu_step.c, probes in
+/// cpu_probe.c.
+#include "backend/cpu.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "physics/fluid.h"
+
+double cpu_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void place(ParticleSet *set, const Grid *grid, int slot, int id, Vec3 position)
+{
+    set->id[slot] = id;
+    set->position[0][slot] = to_coordinate(grid, 0, position.x);
+    set->position[1][slot] = to_coordinate(grid, 1, position.y);
+    set->position[2][slot] = to_coordinate(grid, 2, position.z);
+}
+
+static void place_particles(Backend *b, const ParticleStart *start)
+{
+    for (int i = 0; i < start->fluid_count; i++) {
+        place(&b->fluid, &b->grid, i, i, start->fluid_position[i]);
+        b->fluid.field[VELOCITY_X][i] = (float)start->fluid_velocity[i].x;
+        b->fluid.field[VELOCITY_Y][i] = (float)start->fluid_velocity[i].y;
+        b->fluid.field[VELOCITY_Z][i] = (float)start->fluid_velocity[i].z;
+        b->fluid.field[EXCESS][i] = start->fluid_excess[i];
+    }
+    int fixed = 0, moving = 0;
+    for (int i = 0; i < start->dummy_count; i++) {
+        if (start->dummy_owner[i] == OWNER_FIXED) {
+            place(&b->fixed, &b->grid, fixed, fixed, start->dummy_reference[i]);
+            fixed++;
+        } else {
+            b->moving_reference[moving] = start->dummy_reference[i];
+            b->moving_owner[moving] = start->dummy_owner[i];
+            place(&b->moving, &b->grid, moving, moving, start->dummy_reference[i]);
+            moving++;
+        }
+    }
+}
+
+static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Error *error)
+{
+    int moving = 0;
+    for (int i = 0; i < start->dummy_count; i++)
+        moving += start->dummy_owner[i] != OWNER_FIXED;
+    int fixed = start->dummy_count - moving;
+    TRY(set_create(&b->fluid, &b->grid, start->fluid_count, FLUID_FIELDS, arena, error));
+    TRY(set_create(&b->fixed, &b->grid, fixed, 0, arena, error));
+    TRY(set_create(&b->moving, &b->grid, moving, MOVING_FIELDS, arena, error));
+    TRY(list_create(&b->fluid_fluid, &b->fluid, 120, arena, error));
+    TRY(list_create(&b->fluid_fixed, &b->fluid, 24, arena, error));
+    TRY(list_create(&b->fluid_moving, &b->fluid, 24, arena, error));
+    TRY(list_create(&b->fixed_fluid, &b->fixed, 64, arena, error));
+    TRY(list_create(&b->moving_fluid, &b->moving, 64, arena, error));
+    TRY(b->moving_reference = arena_take(arena, (size_t)moving, sizeof(Vec3), "references", error));
+    TRY(b->moving_owner = arena_take(arena, (size_t)moving, sizeof(int16_t), "owners", error));
+    TRY(b->histogram = arena_take(arena, grid_key_count(&b->grid) + 1, sizeof(int32_t),
+                                  "sort histogram", error));
+    return true;
+}
+
+static Sweep make_sweep(Backend *b)
+{
+    const BackendSetup *s = &b->setup;
+    Sweep sweep;
+    memset(&sweep, 0, sizeof sweep);
+    sweep.fluid = &b->fluid;
+    sweep.walls[0] = &b->fixed;
+    sweep.walls[1] = &b->moving;
+    sweep.fluid_fluid = &b->fluid_fluid;
+    sweep.fluid_wall[0] = &b->fluid_fixed;
+    sweep.fluid_wall[1] = &b->fluid_moving;
+    sweep.wall_fluid[0] = &b->fixed_fluid;
+    sweep.wall_fluid[1] = &b->moving_fluid;
+    sweep.moving_owner = b->moving_owner;
+    sweep.constants =
+        sweep_constants(s->smoothing_length, s->dimensions, b->grid.unit, s->particle_mass,
+                        s->rest_density, s->sound_speed, s->alpha, s->delta);
+    sweep.gravity[2] = (float)-s->gravity;
+    sweep.tait_b = (float)(s->sound_speed * s->sound_speed * s->rest_density / TAIT_GAMMA);
+    sweep.rest_density = (float)s->rest_density;
+    sweep.unit = (float)b->grid.unit;
+    return sweep;
+}
+
+static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Arena *arena,
+                       Backend **backend, Error *error)
+{
+    Backend *b;
+    TRY(b = arena_take(arena, 1, sizeof *b, "backend", error));
+    b->setup = *setup;
+    b->skin = maxd(0.3 * setup->spacing, mind(6 * setup->largest_travel, 0.8 * setup->spacing));
+    b->grid = grid_create(setup->room_min, setup->room_max, setup->dimensions,
+                          2 * setup->smoothing_length, b->skin, setup->spacing);
+    if (grid_key_count(&b->grid) > INT32_MAX)
+        return error_set(error, ERROR_INPUT,
+                         "fluid.spacing_m = %g: the domain needs %zu sorting bins; at most %d",
+                         setup->spacing, grid_key_count(&b->grid), INT32_MAX);
+    TRY(take_arrays(b, start, arena, error));
+    place_particles(b, start);
+    b->sweep = make_sweep(b);
+    b->table = sweep_table_choose();
+    b->first_step = true;
+    set_sort(&b->fixed, &b->grid, b->histogram, setup->threads);
+    set_boxes(&b->fixed, 0, b->fixed.cluster_count);
+    cpu_update_pressure(b);
+    *backend = b;
+    return true;
+}
+
+static void cpu_destroy(Backend *b)
+{
+    ClusterList *lists[] = {&b->fluid_fluid, &b->fluid_fixed, &b->fluid_moving, &b->fixed_fluid,
+                            &b->moving_fluid};
+    for (int i = 0; i < 5; i++)
+        free(lists[i]->entry);
+}
+
+static const char *cpu_variant(const Backend *b) { return b->table->level; }
+
+bool cpu_neighbours(Backend *b, Error *error)
+{
+    double used = b->travel_fluid + maxd(b->travel_fluid, b->travel_moving);
+    // the density sweep looks at half-step places: half of the coming step must fit as well
+    if (b->sorted && used + 0.75 * b->step_travel < b->skin) return true;
+    int threads = b->setup.threads;
+    set_sort(&b->fluid, &b->grid, b->histogram, threads);
+    cpu_update_pressure(b);
+    set_boxes(&b->fluid, 0, b->fluid.cluster_count);
+    bool built = list_build(&b->fluid_fluid, &b->fluid, &b->fluid, &b->grid, true, threads);
+    if (b->fixed.count)
+        built = built &&
+                list_build(&b->fluid_fixed, &b->fluid, &b->fixed, &b->grid, false, threads) &&
+                list_build(&b->fixed_fluid, &b->fixed, &b->fluid, &b->grid, false, threads);
+    if (b->moving.count) {
+        set_sort(&b->moving, &b->grid, b->histogram, threads);
+        set_boxes(&b->moving, 0, b->moving.cluster_count);
+        built = built &&
+                list_build(&b->fluid_moving, &b->fluid, &b->moving, &b->grid, false, threads) &&
+                list_build(&b->moving_fluid, &b->moving, &b->fluid, &b->grid, false, threads);
+    }
+    b->travel_fluid = b->travel_moving = 0;
+    b->sorted = built;
+    b->sorts++;
+    return built || error_set(error, ERROR_SYSTEM, "memory: neighbour lists do not fit");
+}
+
+void cpu_sweep_fluid(Backend *b, void (*function)(const Sweep *, int, int))
+{
+    const Grid *grid = &b->grid;
+    for (int parity = 0; parity < 2; parity++) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(b->setup.threads)
+        for (int slab = parity; slab < grid->slab_count; slab += 2) {
+            int first = slab * SLAB_ROWS, last = first + SLAB_ROWS;
+            last = last > grid->slab_rows ? grid->slab_rows : last;
+            function(&b->sweep, b->fluid.row_begin[first * grid->across_rows],
+                     b->fluid.row_begin[last * grid->across_rows]);
+        }
+    }
+}
+
+static void boxes_and_zero(ParticleSet *set, int rates, int threads)
+{
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int block = 0; block < set->cluster_count; block += 64) {
+        int end = block + 64 < set->cluster_count ? block + 64 : set->cluster_count;
+        set_boxes(set, block, end);
+        for (int a = 0; a < rates; a++)
+            memset(set->rate[a] + block * CLUSTER, 0,
+                   (size_t)(end - block) * CLUSTER * sizeof(float));
+    }
+}
+
+static void extrapolate_walls(Backend *b)
+{
+    for (int set = 0; set < 2; set++) {
+        int clusters = b->sweep.walls[set]->cluster_count;
+        if (!b->sweep.walls[set]->count) continue;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(b->setup.threads)
+        for (int begin = 0; begin < clusters; begin += 64)
+            b->table->extrapolate(&b->sweep, set, begin,
+                                  begin + 64 < clusters ? begin + 64 : clusters);
+    }
+}
+
+/// Reactions on the dummies of each body, summed in slot order: the same bits for any thread count.
+static void sum_loads(Backend *b, const Vec3 *about, BodyLoad *loads)
+{
+    int clusters = b->moving.cluster_count;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(b->setup.threads)
+    for (int begin = 0; begin < clusters; begin += 32)
+        b->table->loads(&b->sweep, begin, begin + 32 < clusters ? begin + 32 : clusters);
+    double factor = b->sweep.constants.acceleration_factor * b->setup.particle_mass;
+    const ParticleSet *m = &b->moving;
+    for (int slot = 0; slot < clusters * CLUSTER; slot++) {
+        if (m->id[slot] < 0 || b->moving_owner[m->id[slot]] < 0) continue;
+        int body = b->moving_owner[m->id[slot]];
+        Vec3 force =
+            vec3(factor * m->rate[0][slot], factor * m->rate[1][slot], factor * m->rate[2][slot]);
+        Vec3 arm = vec3(to_metres(&b->grid, 0, m->position[0][slot]) - about[body].x,
+                        to_metres(&b->grid, 1, m->position[1][slot]) - about[body].y,
+                        to_metres(&b->grid, 2, m->position[2][slot]) - about[body].z);
+        loads[body].force = vec3_add(loads[body].force, force);
+        loads[body].moment = vec3_add(loads[body].moment, vec3_cross(arm, force));
+    }
+}
+
+static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *error)
+{
+    double start = cpu_clock(), now;
+#define LAP(which) (now = cpu_clock(), b->clock[which] += now - start, start = now)
+    TRY(cpu_neighbours(b, error));
+    LAP(CLOCK_SORT);
+    boxes_and_zero(&b->fluid, 3, b->setup.threads);
+    boxes_and_zero(&b->moving, 0, b->setup.threads);
+    LAP(CLOCK_INTEGRATE);
+    extrapolate_walls(b);
+    LAP(CLOCK_EXTRAPOLATE);
+    cpu_sweep_fluid(b, b->table->acceleration[(b->setup.pair_mask & PAIR_VISCOSITY) != 0]);
+    LAP(CLOCK_MOMENTUM);
+    if (b->setup.body_count) {
+        memset(loads, 0, (size_t)b->setup.body_count * sizeof *loads);
+        sum_loads(b, about, loads);
+        LAP(CLOCK_LOADS);
+    }
+#undef LAP
+    return true;
+}
+
+/// Bytes of one set that a checkpoint needs; with `to` they are written, with `from` read.
+static size_t set_transfer(ParticleSet *set, char *to, const char *from)
+{
+    size_t size = 0, slots = (size_t)set->slot_capacity;
+#define MOVE(pointer, bytes)                                                                       \
+    do {                                                                                           \
+        if (to) memcpy(to + size, (pointer), (bytes));                                             \
+        if (from) memcpy((pointer), from + size, (bytes));                                         \
+        size += (bytes);                                                                           \
+    } while (0)
+    MOVE(&set->cluster_count, sizeof set->cluster_count);
+    for (int a = 0; a < 3; a++)
+        MOVE(set->position[a], slots * sizeof(int32_t));
+    for (int f = 0; f < set->field_count; f++)
+        MOVE(set->field[f], slots * sizeof(float));
+    MOVE(set->id, slots * sizeof(int32_t));
+#undef MOVE
+    return size;
+}
+
+static size_t cpu_state_size(const Backend *b)
+{
+    Backend *own = (Backend *)b;
+    return set_transfer(&own->fluid, NULL, NULL) + set_transfer(&own->moving, NULL, NULL) +
+           sizeof(bool);
+}
+
+static void cpu_save(const Backend *b, void *to)
+{
+    Backend *own = (Backend *)b;
+    size_t fluid = set_transfer(&own->fluid, to, NULL);
+    size_t moving = set_transfer(&own->moving, (char *)to + fluid, NULL);
+    memcpy((char *)to + fluid + moving, &b->first_step, sizeof(bool));
+}
+
+static void cpu_restore(Backend *b, const void *from)
+{
+    size_t fluid = set_transfer(&b->fluid, NULL, from);
+    size_t moving = set_transfer(&b->moving, NULL, (const char *)from + fluid);
+    memcpy(&b->first_step, (const char *)from + fluid + moving, sizeof(bool));
+    b->sorted = false;
+    cpu_update_pressure(b);
+}
+
+static const double *cpu_clocks(const Backend *b) { return b->clock; }
+
+static double cpu_pair_cost(Backend *b, unsigned bit)
+{
+    bool momentum = bit == PAIR_VISCOSITY;
+    double best[2] = {1e9, 1e9};
+    for (int round = 0; round < 6; round++) {
+        double start = cpu_clock();
+        cpu_sweep_fluid(b, momentum ? b->table->acceleration[round % 2]
+                                    : b->table->density[round % 2]);
+        best[round % 2] = mind(best[round % 2], cpu_clock() - start);
+    }
+    return maxd(0, 1 - best[0] / best[1]);
+}
+
+static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density_rate, Error *error)
+{
+    TRY(cpu_neighbours(b, error));
+    int slots = b->fluid.cluster_count * CLUSTER;
+    const SweepConstants *c = &b->sweep.constants;
+    boxes_and_zero(&b->fluid, 3, b->setup.threads);
+    boxes_and_zero(&b->moving, 0, b->setup.threads);
+    extrapolate_walls(b);
+    cpu_sweep_fluid(b, b->table->acceleration[(b->setup.pair_mask & PAIR_VISCOSITY) != 0]);
+    for (int s = 0; s < slots; s++)
+        for (int a = 0; a < 3 && b->fluid.id[s] >= 0; a++)
+            acceleration[b->fluid.id[s]][a] =
+                c->acceleration_factor * b->fluid.rate[a][s] + b->sweep.gravity[a];
+    cpu_update_dynamic(b);
+    boxes_and_zero(&b->fluid, 1, b->setup.threads);
+    cpu_sweep_fluid(b, b->table->density[(b->setup.pair_mask & PAIR_DIFFUSION) != 0]);
+    for (int s = 0; s < slots; s++)
+        if (b->fluid.id[s] >= 0)
+            density_rate[b->fluid.id[s]] = c->density_factor * b->fluid.rate[0][s];
+    return true;
+}
+
+const BackendTable *backend_cpu(void)
+{
+    static const BackendTable table = {
+        "cpu",       cpu_create,   cpu_destroy,   cpu_variant,   cpu_forces,
+        cpu_advance, cpu_download, cpu_elevation, cpu_pressure,  cpu_state_size,
+        cpu_save,    cpu_restore,  cpu_clocks,    cpu_pair_cost, cpu_probe_rates,
+    };
+    return &table;
+}

@@ -1,0 +1,118 @@
+/// Reading the CPU backend: snapshots, wave gauges, pressure probes.
+#include <math.h>
+
+#include "backend/cpu.h"
+#include "physics/fluid.h"
+
+void cpu_download(Backend *b, float (*position)[3], float (*velocity)[3], float *pressure)
+{
+    const ParticleSet *f = &b->fluid;
+#pragma omp parallel for schedule(static) num_threads(b->setup.threads)
+    for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
+        int id = f->id[i];
+        if (id < 0) continue;
+        for (int a = 0; a < 3; a++) {
+            if (position) position[id][a] = (float)to_metres(&b->grid, a, f->position[a][i]);
+            if (velocity) velocity[id][a] = f->field[VELOCITY_X + a][i];
+        }
+        if (pressure) pressure[id] = tait_pressure(f->field[EXCESS][i], b->sweep.tait_b);
+    }
+}
+
+enum { COLUMN_SAMPLES = 64 };
+
+/// Sum of m/rho W at `count` heights z0 + k dz above (x, y).
+static void column_colour(const Backend *b, double x, double y, double z0, double dz, int count,
+                          double *colour)
+{
+    const ParticleSet *f = &b->fluid;
+    double h = b->setup.smoothing_length, volume = b->setup.particle_mass / b->setup.rest_density;
+    double scale = volume * kernel_constant(h, b->setup.dimensions), reach = 2 * h / b->grid.unit;
+    int32_t cx = to_coordinate(&b->grid, 0, x), cy = to_coordinate(&b->grid, 1, y);
+    for (int k = 0; k < count; k++)
+        colour[k] = 0;
+    for (int c = 0; c < f->cluster_count; c++) {
+        if (f->boxes.min[0][c] > cx + reach || f->boxes.max[0][c] < cx - reach ||
+            f->boxes.min[1][c] > cy + reach || f->boxes.max[1][c] < cy - reach)
+            continue;
+        for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++) {
+            if (f->id[i] < 0) continue;
+            double dx = b->grid.unit * (f->position[0][i] - cx);
+            double dy = b->grid.unit * (f->position[1][i] - cy);
+            if (dx * dx + dy * dy >= 4 * h * h) continue;
+            double z = to_metres(&b->grid, 2, f->position[2][i]);
+            for (int k = 0; k < count; k++) {
+                double d = z0 + k * dz - z, r = sqrt(dx * dx + dy * dy + d * d);
+                float s = (float)(1 - r / (2 * h));
+                if (s > 0) colour[k] += scale * kernel_value(s);
+            }
+        }
+    }
+}
+
+/// Highest particle within one spacing of the column; NAN when there is none.
+static double highest_near(const Backend *b, double x, double y)
+{
+    const ParticleSet *f = &b->fluid;
+    double reach = b->setup.spacing / b->grid.unit;
+    int32_t cx = to_coordinate(&b->grid, 0, x), cy = to_coordinate(&b->grid, 1, y), top = -1;
+    for (int c = 0; c < f->cluster_count; c++) {
+        if (f->boxes.min[0][c] > cx + reach || f->boxes.max[0][c] < cx - reach ||
+            f->boxes.min[1][c] > cy + reach || f->boxes.max[1][c] < cy - reach)
+            continue;
+        for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++)
+            if (f->id[i] >= 0 && fabs((double)f->position[0][i] - cx) <= reach &&
+                fabs((double)f->position[1][i] - cy) <= reach && f->position[2][i] > top)
+                top = f->position[2][i];
+    }
+    return top < 0 ? NAN : to_metres(&b->grid, 2, top);
+}
+
+/// The colour function sum m/rho W is 1 in the water, 0 above, one half at the surface of a lattice
+/// whose outermost particles lie dp/2 below it.
+double cpu_elevation(Backend *b, double x, double y)
+{
+    double colour[COLUMN_SAMPLES], top = highest_near(b, x, y);
+    double dp = b->setup.spacing, dz = 6 * dp / (COLUMN_SAMPLES - 1);
+    // spray: look below until there is water under the sample
+    for (int attempt = 0; attempt < 8 && isfinite(top); attempt++) {
+        double z0 = top - 4 * dp;
+        column_colour(b, x, y, z0, dz, COLUMN_SAMPLES, colour);
+        for (int k = COLUMN_SAMPLES - 1; k > 0; k--)
+            if (colour[k] < 0.5 && colour[k - 1] >= 0.5)
+                return z0 + dz * (k - 1 + (colour[k - 1] - 0.5) / (colour[k - 1] - colour[k]));
+        top = z0;
+    }
+    return NAN;
+}
+
+double cpu_pressure(Backend *b, Vec3 point)
+{
+    const ParticleSet *f = &b->fluid;
+    double h = b->setup.smoothing_length, reach = 2 * h / b->grid.unit;
+    int32_t at[3] = {to_coordinate(&b->grid, 0, point.x), to_coordinate(&b->grid, 1, point.y),
+                     to_coordinate(&b->grid, 2, point.z)};
+    double weight = 0, sum = 0;
+    for (int c = 0; c < f->cluster_count; c++) {
+        bool near = true;
+        for (int a = 0; a < 3; a++)
+            near =
+                near && f->boxes.min[a][c] <= at[a] + reach && f->boxes.max[a][c] >= at[a] - reach;
+        if (!near) continue;
+        for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++) {
+            if (f->id[i] < 0) continue;
+            double r2 = 0;
+            for (int a = 0; a < 3; a++) {
+                double d = b->grid.unit * (f->position[a][i] - at[a]);
+                r2 += d * d;
+            }
+            float s = (float)(1 - sqrt(r2) / (2 * h));
+            if (s <= 0) continue;
+            double lift = b->setup.gravity * b->setup.rest_density * b->grid.unit *
+                          ((double)f->position[2][i] - at[2]);
+            weight += kernel_value(s);
+            sum += kernel_value(s) * (tait_pressure(f->field[EXCESS][i], b->sweep.tait_b) + lift);
+        }
+    }
+    return weight > 0 && sum > 0 ? sum / weight : 0;
+}

@@ -1,0 +1,354 @@
+/// Neighbour sweeps over clusters of eight. One particle (scalars) meets eight neighbours (lanes);
+/// no mask is needed, because s = max(0, 1 - q/2) is zero beyond the support and in padding. Which
+/// clusters a particle visits is decided by its distance to their boxes.
+///
+/// Compiled once per instruction level with SWEEP_TABLE set to the exported function's name and
+/// SWEEP_LEVEL to the level's.
+#include "backend/sweep.h"
+
+#include "physics/fluid.h"
+
+enum { VISITS_MAX = 2048 };
+
+/// Boxes of one cluster's neighbours, side by side for the vectorised test.
+typedef struct Neighbourhood {
+    int count;
+    uint32_t cluster[VISITS_MAX];
+    int32_t min[3][VISITS_MAX], max[3][VISITS_MAX];
+} Neighbourhood;
+
+static void gather_boxes(Neighbourhood *n, const ClusterList *list, int i, const Boxes *boxes)
+{
+    const uint32_t *entry = list->entry + list->begin[i];
+    int count = (int)list->count[i];
+    n->count = count < VISITS_MAX ? count : VISITS_MAX;
+    for (int k = 0; k < n->count; k++) {
+        uint32_t c = entry[k];
+        n->cluster[k] = c;
+        for (int a = 0; a < 3; a++) {
+            n->min[a][k] = boxes->min[a][c];
+            n->max[a][k] = boxes->max[a][c];
+        }
+    }
+}
+
+/// First slots of the clusters whose box lies within the support of the point.
+static int select_visits(const Neighbourhood *n, int32_t x, int32_t y, int32_t z,
+                         float support_squared, int32_t *visits)
+{
+    float gap[VISITS_MAX];
+#pragma omp simd
+    for (int k = 0; k < n->count; k++) {
+        int32_t bx = n->min[0][k] - x, ax = x - n->max[0][k];
+        int32_t by = n->min[1][k] - y, ay = y - n->max[1][k];
+        int32_t bz = n->min[2][k] - z, az = z - n->max[2][k];
+        bx = bx > ax ? bx : ax;
+        by = by > ay ? by : ay;
+        bz = bz > az ? bz : az;
+        float gx = (float)(bx > 0 ? bx : 0), gy = (float)(by > 0 ? by : 0);
+        float gz = (float)(bz > 0 ? bz : 0);
+        gap[k] = gx * gx + gy * gy + gz * gz;
+    }
+    int count = 0;
+    for (int k = 0; k < n->count; k++) {
+        visits[count] = (int32_t)n->cluster[k] * CLUSTER;
+        count += gap[k] < support_squared;
+    }
+    return count;
+}
+
+/// A particle as scalars.
+typedef struct Self {
+    int32_t x, y, z;
+    float u, v, w, pressure, dynamic;
+} Self;
+
+FN Self self_of(const ParticleSet *set, int i)
+{
+    Self self;
+    self.x = set->position[0][i];
+    self.y = set->position[1][i];
+    self.z = set->position[2][i];
+    self.u = set->field[VELOCITY_X][i];
+    self.v = set->field[VELOCITY_Y][i];
+    self.w = set->field[VELOCITY_Z][i];
+    self.pressure = set->pressure[i];
+    self.dynamic = set->dynamic[i];
+    return self;
+}
+
+/// Eight lanes of sums.
+typedef struct Lanes {
+    float x[CLUSTER], y[CLUSTER], z[CLUSTER];
+} Lanes;
+
+FN float lanes_total(const float lane[CLUSTER])
+{
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
+           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+/// Momentum: one particle and the eight at `base`. `react` lets the eight feel it too.
+FN void visit_momentum(const Self *self, const ParticleSet *other, int base, const SweepConstants c,
+                       bool viscous, bool react, Lanes *sum)
+{
+    const int32_t *RESTRICT px = other->position[0] + base,
+                            *RESTRICT py = other->position[1] + base;
+    const int32_t *RESTRICT pz = other->position[2] + base;
+    const float *RESTRICT vu = other->field[VELOCITY_X] + base;
+    const float *RESTRICT vv = other->field[VELOCITY_Y] + base;
+    const float *RESTRICT vw = other->field[VELOCITY_Z] + base;
+    const float *RESTRICT pressure = other->pressure + base;
+    float *RESTRICT rx = other->rate[0] + base, *RESTRICT ry = other->rate[1] + base;
+    float *RESTRICT rz = other->rate[2] + base;
+#pragma omp simd
+    for (int l = 0; l < CLUSTER; l++) {
+        float dx = (float)(self->x - px[l]), dy = (float)(self->y - py[l]);
+        float dz = (float)(self->z - pz[l]);
+        float r2 = dx * dx + dy * dy + dz * dz;
+        float s = pair_closeness(r2, c.inverse_support);
+        float f;
+        if (viscous) {
+            float vx = (self->u - vu[l]) * dx + (self->v - vv[l]) * dy + (self->w - vw[l]) * dz;
+            f = pair_force(s, r2, self->pressure + pressure[l], vx, c);
+        } else {
+            f = kernel_slope(s) * (self->pressure + pressure[l]);
+        }
+        float fx = f * dx, fy = f * dy, fz = f * dz;
+        sum->x[l] += fx;
+        sum->y[l] += fy;
+        sum->z[l] += fz;
+        if (react) {
+            rx[l] -= fx;
+            ry[l] -= fy;
+            rz[l] -= fz;
+        }
+    }
+}
+
+/// Continuity: one particle and the eight at `base`.
+FN void visit_density(const Self *self, const ParticleSet *other, int base, const SweepConstants c,
+                      bool diffusive, bool react, float sum[CLUSTER])
+{
+    const int32_t *RESTRICT px = other->position[0] + base,
+                            *RESTRICT py = other->position[1] + base;
+    const int32_t *RESTRICT pz = other->position[2] + base;
+    const float *RESTRICT vu = other->field[VELOCITY_X] + base;
+    const float *RESTRICT vv = other->field[VELOCITY_Y] + base;
+    const float *RESTRICT vw = other->field[VELOCITY_Z] + base;
+    const float *RESTRICT dynamic = other->dynamic + base;
+    float *RESTRICT rate = other->rate[0] + base;
+#pragma omp simd
+    for (int l = 0; l < CLUSTER; l++) {
+        float dx = (float)(self->x - px[l]), dy = (float)(self->y - py[l]);
+        float dz = (float)(self->z - pz[l]);
+        float s = pair_closeness(dx * dx + dy * dy + dz * dz, c.inverse_support);
+        float vx = (self->u - vu[l]) * dx + (self->v - vv[l]) * dy + (self->w - vw[l]) * dz;
+        float slope = kernel_slope(s);
+        float squeeze = -slope * vx;
+        float diffused = diffusive ? slope * (c.diffusion * (dynamic[l] - self->dynamic)) : 0.0f;
+        sum[l] += squeeze + diffused;
+        if (react) rate[l] += squeeze - diffused;
+    }
+}
+
+FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous, Neighbourhood *n)
+{
+    ParticleSet *fluid = sweep->fluid;
+    int32_t visits[VISITS_MAX];
+    const SweepConstants c = sweep->constants;
+    Lanes sums[CLUSTER] = {0};
+    gather_boxes(n, sweep->fluid_fluid, i, &fluid->boxes);
+    for (int l = 0; l < CLUSTER; l++) {
+        if (fluid->id[i * CLUSTER + l] < 0) continue;
+        const Self self = self_of(fluid, i * CLUSTER + l);
+        int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+        Lanes sum = {0};
+        for (int k = 0; k < count; k++)
+            visit_momentum(&self, fluid, visits[k], c, viscous, true, &sum);
+        visit_momentum(&self, fluid, i * CLUSTER, c, viscous, false, &sum);
+        sums[l] = sum;
+    }
+    for (int set = 0; set < 2; set++) {
+        if (!sweep->walls[set]->count || !sweep->fluid_wall[set]->count[i]) continue;
+        gather_boxes(n, sweep->fluid_wall[set], i, &sweep->walls[set]->boxes);
+        for (int l = 0; l < CLUSTER; l++) {
+            if (fluid->id[i * CLUSTER + l] < 0) continue;
+            const Self self = self_of(fluid, i * CLUSTER + l);
+            int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+            for (int k = 0; k < count; k++)
+                visit_momentum(&self, sweep->walls[set], visits[k], c, false, false, &sums[l]);
+        }
+    }
+    for (int l = 0; l < CLUSTER; l++) {
+        fluid->rate[0][i * CLUSTER + l] += lanes_total(sums[l].x);
+        fluid->rate[1][i * CLUSTER + l] += lanes_total(sums[l].y);
+        fluid->rate[2][i * CLUSTER + l] += lanes_total(sums[l].z);
+    }
+}
+
+FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive, Neighbourhood *n)
+{
+    ParticleSet *fluid = sweep->fluid;
+    int32_t visits[VISITS_MAX];
+    const SweepConstants c = sweep->constants;
+    float sums[CLUSTER][CLUSTER] = {{0}};
+    gather_boxes(n, sweep->fluid_fluid, i, &fluid->boxes);
+    for (int l = 0; l < CLUSTER; l++) {
+        if (fluid->id[i * CLUSTER + l] < 0) continue;
+        const Self self = self_of(fluid, i * CLUSTER + l);
+        int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+        for (int k = 0; k < count; k++)
+            visit_density(&self, fluid, visits[k], c, diffusive, true, sums[l]);
+        visit_density(&self, fluid, i * CLUSTER, c, diffusive, false, sums[l]);
+    }
+    for (int set = 0; set < 2; set++) {
+        if (!sweep->walls[set]->count || !sweep->fluid_wall[set]->count[i]) continue;
+        gather_boxes(n, sweep->fluid_wall[set], i, &sweep->walls[set]->boxes);
+        for (int l = 0; l < CLUSTER; l++) {
+            if (fluid->id[i * CLUSTER + l] < 0) continue;
+            const Self self = self_of(fluid, i * CLUSTER + l);
+            int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+            for (int k = 0; k < count; k++)
+                visit_density(&self, sweep->walls[set], visits[k], c, false, false, sums[l]);
+        }
+    }
+    for (int l = 0; l < CLUSTER; l++)
+        fluid->rate[0][i * CLUSTER + l] += lanes_total(sums[l]);
+}
+
+static void acceleration_plain(const Sweep *sweep, int begin, int end)
+{
+    Neighbourhood n;
+    for (int i = begin; i < end; i++)
+        acceleration_of_cluster(sweep, i, false, &n);
+}
+static void acceleration_viscous(const Sweep *sweep, int begin, int end)
+{
+    Neighbourhood n;
+    for (int i = begin; i < end; i++)
+        acceleration_of_cluster(sweep, i, true, &n);
+}
+static void density_plain(const Sweep *sweep, int begin, int end)
+{
+    Neighbourhood n;
+    for (int i = begin; i < end; i++)
+        density_of_cluster(sweep, i, false, &n);
+}
+static void density_diffusive(const Sweep *sweep, int begin, int end)
+{
+    Neighbourhood n;
+    for (int i = begin; i < end; i++)
+        density_of_cluster(sweep, i, true, &n);
+}
+
+/// Sums of the dummy extrapolation.
+typedef struct Shepard {
+    float weight[CLUSTER], pressure[CLUSTER], rho_x[CLUSTER], rho_y[CLUSTER], rho_z[CLUSTER];
+} Shepard;
+
+FN void visit_extrapolation(const Self *self, const ParticleSet *fluid, int base,
+                            const Sweep *sweep, Shepard *sum)
+{
+    const int32_t *RESTRICT px = fluid->position[0] + base,
+                            *RESTRICT py = fluid->position[1] + base;
+    const int32_t *RESTRICT pz = fluid->position[2] + base;
+    const float *RESTRICT excess = fluid->field[EXCESS] + base;
+#pragma omp simd
+    for (int l = 0; l < CLUSTER; l++) {
+        float dx = (float)(self->x - px[l]), dy = (float)(self->y - py[l]);
+        float dz = (float)(self->z - pz[l]);
+        float s = pair_closeness(dx * dx + dy * dy + dz * dz, sweep->constants.inverse_support);
+        float weight = kernel_value(s), density = weight * (1.0f + excess[l]);
+        sum->weight[l] += weight;
+        sum->pressure[l] += weight * tait_pressure(excess[l], sweep->tait_b);
+        sum->rho_x[l] += density * dx;
+        sum->rho_y[l] += density * dy;
+        sum->rho_z[l] += density * dz;
+    }
+}
+
+/// p_w = (sum p_f W + (g - a_w) . sum rho_f x_wf W) / sum W, never below zero (no suction at
+/// walls). Source: Adami, Hu & Adams (2012), doi:10.1016/j.jcp.2012.05.005, eq. 27.
+FN float extrapolated_pressure(const Shepard *sum, const Sweep *sweep, const float acceleration[3])
+{
+    float weight = lanes_total(sum->weight);
+    if (weight < 1e-6f) return 0.0f;
+    float lift = (sweep->gravity[0] - acceleration[0]) * lanes_total(sum->rho_x) +
+                 (sweep->gravity[1] - acceleration[1]) * lanes_total(sum->rho_y) +
+                 (sweep->gravity[2] - acceleration[2]) * lanes_total(sum->rho_z);
+    float p = (lanes_total(sum->pressure) + sweep->rest_density * sweep->unit * lift) / weight;
+    return p > 0.0f ? p : 0.0f;
+}
+
+static void extrapolate(const Sweep *sweep, int set, int begin, int end)
+{
+    ParticleSet *wall = sweep->walls[set];
+    const ParticleSet *fluid = sweep->fluid;
+    const ClusterList *list = sweep->wall_fluid[set];
+    Neighbourhood n;
+    int32_t visits[VISITS_MAX];
+    for (int i = begin; i < end; i++) {
+        if (!list->count[i]) {
+            for (int l = 0; l < CLUSTER; l++)
+                wall->pressure[i * CLUSTER + l] = 0;
+            continue;
+        }
+        gather_boxes(&n, list, i, &fluid->boxes);
+        for (int l = 0; l < CLUSTER; l++) {
+            int slot = i * CLUSTER + l;
+            if (wall->id[slot] < 0) continue;
+            const Self self = self_of(wall, slot);
+            int count =
+                select_visits(&n, self.x, self.y, self.z, sweep->constants.support_squared, visits);
+            Shepard sum = {{0}, {0}, {0}, {0}, {0}};
+            for (int k = 0; k < count; k++)
+                visit_extrapolation(&self, fluid, visits[k], sweep, &sum);
+            float acceleration[3] = {0, 0, 0};
+            for (int a = 0; a < 3 && set == 1; a++)
+                acceleration[a] = wall->field[WALL_ACCELERATION_X + a][slot];
+            float p = extrapolated_pressure(&sum, sweep, acceleration);
+            float rho = sweep->rest_density * (1.0f + tait_excess(p, sweep->tait_b));
+            wall->pressure[slot] = p / (rho * rho);
+        }
+    }
+}
+
+static void loads(const Sweep *sweep, int begin, int end)
+{
+    ParticleSet *wall = sweep->walls[1];
+    const ClusterList *list = sweep->wall_fluid[1];
+    const SweepConstants c = sweep->constants;
+    Neighbourhood n;
+    int32_t visits[VISITS_MAX];
+    for (int i = begin; i < end; i++) {
+        bool gathered = false;
+        for (int l = 0; l < CLUSTER; l++) {
+            int slot = i * CLUSTER + l, id = wall->id[slot];
+            Lanes sum = {0};
+            if (id >= 0 && sweep->moving_owner[id] >= 0 && list->count[i]) {
+                if (!gathered) gather_boxes(&n, list, i, &sweep->fluid->boxes);
+                gathered = true;
+                const Self self = self_of(wall, slot);
+                int count = select_visits(&n, self.x, self.y, self.z, c.support_squared, visits);
+                for (int k = 0; k < count; k++)
+                    visit_momentum(&self, sweep->fluid, visits[k], c, false, false, &sum);
+            }
+            wall->rate[0][slot] = lanes_total(sum.x);
+            wall->rate[1][slot] = lanes_total(sum.y);
+            wall->rate[2][slot] = lanes_total(sum.z);
+        }
+    }
+}
+
+const SweepTable *SWEEP_TABLE(void)
+{
+    static const SweepTable table = {
+        SWEEP_LEVEL,
+        {acceleration_plain, acceleration_viscous},
+        {density_plain, density_diffusive},
+        extrapolate,
+        loads,
+    };
+    return &table;
+}

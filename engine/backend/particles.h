@@ -1,0 +1,105 @@
+/// Particles of the CPU backend: structure of arrays in padded clusters of eight.
+///
+/// Positions are 32-bit fixed-point numbers in `Grid.unit`; differences are exact, so accuracy does
+/// not depend on the distance from the origin (float positions lose it in a long tank,
+/// docs/performance.md). Particles are sorted into *rows*: square columns of side `Grid.row` along
+/// one axis, cut into clusters of CLUSTER slots; slots without a particle lie at PADDING, out of
+/// everybody's reach.
+#ifndef FAIRLEAD_BACKEND_PARTICLES_H
+#define FAIRLEAD_BACKEND_PARTICLES_H
+
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "physics/pair.h"
+
+enum { CLUSTER = 8, FIELDS_MAX = 6, ROW_REACH = 2, SLAB_ROWS = 2 };
+#define PADDING (-(1 << 30)) ///< coordinate of an empty slot [unit]; real ones are in [0, 2^30)
+#define COORDINATE_END (1 << 30)
+
+/// How space is cut. Rows are half of support + skin wide, so neighbours lie within ROW_REACH rows.
+/// Axis `slab` is the longest lateral one: slabs of SLAB_ROWS rows are the units of parallel work,
+/// and a half list reaches only into the own and the next slab, so slabs of one parity never
+/// collide.
+typedef struct Grid {
+    double origin[3];        ///< world position of coordinate 0 [m]
+    double unit;             ///< [m]
+    int slab, across, along; ///< axes: 0 x, 1 y, 2 z
+    int32_t row;             ///< side of a row [unit]
+    int32_t bin;             ///< sorting bin along the row [unit]
+    int slab_rows, across_rows, bins;
+    int slab_count;
+    float reach_squared; ///< (support + skin)^2 [unit^2]
+    int32_t reach;       ///< support + skin [unit]
+} Grid;
+
+/// Bounding boxes of clusters [unit]; min > max when empty.
+typedef struct Boxes {
+    int32_t *min[3], *max[3]; ///< [cluster capacity]
+} Boxes;
+
+/// Names of the float fields that travel with a particle when it is sorted.
+enum { VELOCITY_X, VELOCITY_Y, VELOCITY_Z, EXCESS, FLUID_FIELDS };
+enum { WALL_ACCELERATION_X = 3, WALL_ACCELERATION_Y, WALL_ACCELERATION_Z, MOVING_FIELDS };
+
+/// One set: fluid, fixed dummies, or moving dummies.
+typedef struct ParticleSet {
+    int count;                ///< particles
+    int slot_capacity;        ///< multiple of CLUSTER
+    int cluster_count;        ///< in use
+    int field_count;          ///< of `field` that are sorted
+    int32_t *position[3];     ///< [slot_capacity][unit]
+    float *field[FIELDS_MAX]; ///< velocity [m/s]; fluid: rho/rho0 - 1; moving: acceleration [m/s^2]
+    int32_t *id;              ///< index at creation, -1 in padding
+    float *pressure;          ///< P = p/rho^2 [Pa m^6/kg^2]; 0 in padding
+    float *dynamic;           ///< fluid: density excess less its hydrostatic part [-]
+    float *rate[3];           ///< sums of the sweeps
+    Boxes boxes;
+    int *row_begin;             ///< [rows + 1] first cluster of each row
+    int32_t *spare_position[3]; ///< the sort's other half; moving: target places during a step
+    float *spare_field[FIELDS_MAX];
+    int32_t *spare_id;
+    int32_t *key, *source; ///< [slot_capacity]
+} ParticleSet;
+
+/// For every cluster of one set the clusters of another within reach.
+typedef struct ClusterList {
+    uint32_t *begin;       ///< [cluster capacity] first entry
+    uint32_t *count;       ///< [cluster capacity]
+    uint32_t *entry;       ///< malloc'ed: grows, rarely, when a sort finds more neighbours
+    uint32_t per_cluster;  ///< entries set aside per cluster
+    size_t entry_capacity; ///< [entries]
+} ClusterList;
+
+/// Cut the box [min, max] (metres) into rows for the given support (2h) and skin [m].
+Grid grid_create(const double min[3], const double max[3], int dimensions, double support,
+                 double skin, double spacing);
+
+bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
+                Error *error);
+
+/// Sort by row and bin and cut into clusters; all fields follow. `histogram` [keys + 1].
+void set_sort(ParticleSet *set, const Grid *grid, int32_t *histogram, int threads);
+size_t grid_key_count(const Grid *grid);
+
+/// Boxes of clusters begin..end from the present positions.
+void set_boxes(ParticleSet *set, int begin, int end);
+
+/// Clusters of `b` within reach of each cluster of `a`. `half`: a == b, each pair once, own cluster
+/// left out. Grows the list when needed. @return false when memory is exhausted
+bool list_build(ClusterList *list, const ParticleSet *a, const ParticleSet *b, const Grid *grid,
+                bool half, int threads);
+bool list_create(ClusterList *list, const ParticleSet *a, uint32_t per_cluster, Arena *arena,
+                 Error *error);
+
+static inline int32_t to_coordinate(const Grid *grid, int axis, double metres)
+{
+    double c = floor((metres - grid->origin[axis]) / grid->unit + 0.5);
+    return (int32_t)(c < 0 ? 0 : (c > COORDINATE_END - 1 ? COORDINATE_END - 1 : c));
+}
+static inline double to_metres(const Grid *grid, int axis, int32_t coordinate)
+{
+    return grid->origin[axis] + grid->unit * coordinate;
+}
+
+#endif

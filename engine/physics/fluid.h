@@ -1,0 +1,37 @@
+/// Weakly compressible water: Tait's equation of state in the density excess s = rho/rho0 - 1.
+/// Keeping s (not rho) in float preserves pressures of a few pascal under metres of water.
+/// Source: Tait as used by Monaghan (1994), doi:10.1006/jcph.1994.1034; gamma = 7.
+#ifndef FAIRLEAD_PHYSICS_FLUID_H
+#define FAIRLEAD_PHYSICS_FLUID_H
+
+#include "base/portable.h"
+
+#define TAIT_GAMMA 7
+
+/// p = b ((1 + s)^7 - 1), expanded so that small s keeps its digits.
+/// @param s  density excess rho/rho0 - 1 [-]; b = c0^2 rho0 / 7 [Pa]   @return [Pa]
+FN float tait_pressure(float s, float b)
+{
+    float t = 1.0f + s;
+    float t2 = t * t;
+    // (t^7 - 1)/(t - 1) = 1 + t + … + t^6
+    float sum = 1.0f + t + t2 + t2 * t + t2 * t2 + t2 * t2 * t + t2 * t2 * t2;
+    return b * s * sum;
+}
+
+/// Inverse: s = (1 + p/b)^(1/7) - 1 [-], by its series; error below 1e-6 for p/b < 0.2.
+FN float tait_excess(float p, float b)
+{
+    float x = p / b;
+    return x * (1.0f / 7.0f +
+                x * (-3.0f / 49.0f + x * (13.0f / 343.0f + x * (-65.0f / 2401.0f + x * 0.0209f))));
+}
+
+/// Density excess of water at rest, `below` metres under its surface (negative: above) [-].
+FN double hydrostatic_excess(double below, double gravity, double sound_speed)
+{
+    double x = TAIT_GAMMA * gravity * below / (sound_speed * sound_speed);
+    return x > -0.5 ? pow(1.0 + x, 1.0 / TAIT_GAMMA) - 1.0 : -0.1;
+}
+
+#endif

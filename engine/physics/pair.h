@@ -1,0 +1,62 @@
+/// What one pair of particles does to each other: the only place where these formulas stand.
+/// Every backend inlines them into its sweep.
+///
+/// Lengths arrive in the position unit u (see particles.h: positions are fixed-point integers, so a
+/// difference is exact and never loses digits far from the origin); the constants absorb u.
+/// Sums come out without their common factors, which SweepConstants holds:
+///
+///     acceleration_i = acceleration_factor * sum s^3 (P_i + P_k + Pi_ik) x_ik + g,  P = p/rho^2
+///     (drho/dt)_i/rho0 = density_factor * sum s^3 (-v_ik . x_ik + diffusion (D_k - D_i))
+///
+/// Sources: momentum and artificial viscosity, Monaghan (1992) and (1994); density diffusion with
+/// the hydrostatic part removed, Fourtakas et al. (2019), doi:10.1016/j.compfluid.2019.06.009 —
+/// with psi_ik . grad_i W = -2 (D_k - D_i) F, where grad_i W = F x_ik, the distance cancels and a
+/// spike decays.
+#ifndef FAIRLEAD_PHYSICS_PAIR_H
+#define FAIRLEAD_PHYSICS_PAIR_H
+
+#include "kernel.h"
+
+typedef struct SweepConstants {
+    float inverse_support;     ///< u / 2h [-]: s = 1 - inverse_support * r
+    float support_squared;     ///< (2h / u)^2, for box tests
+    float acceleration_factor; ///< 5 alpha_D m u / h^2 [kg/m^4 · …]: [(Pa m^6/kg^2)] → [m/s^2]
+    float density_factor;      ///< 5 alpha_D m u / (h^2 rho0) [1/m]: [m/s] → [1/s]
+    float viscosity;           ///< alpha c0 h / (u rho0): multiplies min(0, v.x)/(r^2 + eta^2)
+    float eta_squared;         ///< 0.01 h^2 / u^2
+    float diffusion;           ///< 2 delta h c0 / u [m/s]: multiplies D = dynamic density excess
+} SweepConstants;
+
+/// Constants of a scene. @param u  position unit [m]; mass per particle [kg], per metre in 2-D
+FN SweepConstants sweep_constants(double h, int dimensions, double u, double mass, double rho0,
+                                  double c0, double alpha, double delta)
+{
+    SweepConstants c;
+    double slope = 5.0 * kernel_constant(h, dimensions) * mass / (h * h);
+    c.inverse_support = (float)(u / (2.0 * h));
+    c.support_squared = (float)(4.0 * h * h / (u * u));
+    c.acceleration_factor = (float)(slope * u);
+    c.density_factor = (float)(slope * u / rho0);
+    c.viscosity = (float)(alpha * c0 * h / (u * rho0));
+    c.eta_squared = (float)(0.01 * h * h / (u * u));
+    c.diffusion = (float)(2.0 * delta * h * c0 / u);
+    return c;
+}
+
+/// s = max(0, 1 - q/2) from a squared distance in units.
+FN float pair_closeness(float r2, float inverse_support)
+{
+    float s = 1.0f - sqrtf(r2) * inverse_support;
+    return s > 0.0f ? s : 0.0f;
+}
+
+/// Factor of x_ik in i's acceleration (and of -x_ik in k's).
+/// @param pressures  P_i + P_k   @param vx  v_ik . x_ik (0 without viscosity)
+FN float pair_force(float s, float r2, float pressures, float vx, const SweepConstants c)
+{
+    float approach = vx < 0.0f ? vx : 0.0f;
+    float viscous = -c.viscosity * approach / (r2 + c.eta_squared);
+    return kernel_slope(s) * (pressures + viscous);
+}
+
+#endif

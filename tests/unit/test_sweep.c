@@ -1,0 +1,196 @@
+/// The CPU sweeps against a double-precision all-pairs reference, and their invariants.
+#include "test.h"
+
+#include <stdlib.h>
+
+#include "backend/backend.h"
+#include "backend/sweep.h"
+#include "physics/fluid.h"
+#include "physics/pair.h"
+
+/// Random numbers that are the same everywhere.
+static double random_unit(unsigned *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (*seed >> 8) / 16777216.0;
+}
+
+enum { NX = 14, NY = 12, NZ = 10, N = NX * NY * NZ };
+static const double DP = 0.05, RHO0 = 1000, C0 = 20;
+static Vec3 place[N], velocity[N];
+static float excess[N];
+
+static BackendSetup random_water(int dimensions, double far, unsigned seed)
+{
+    for (int i = 0; i < N; i++) {
+        int ix = i % NX, iy = i / NX % NY, iz = i / (NX * NY);
+        place[i] = vec3(far + DP * (ix + 0.5 + 0.5 * (random_unit(&seed) - 0.5)),
+                        DP * (iy + 0.5 + 0.5 * (random_unit(&seed) - 0.5)),
+                        DP * (iz + 0.5 + 0.5 * (random_unit(&seed) - 0.5)));
+        if (dimensions == 2) place[i].y = 0;
+        velocity[i] =
+            vec3(random_unit(&seed) - 0.5, random_unit(&seed) - 0.5, random_unit(&seed) - 0.5);
+        excess[i] = (float)(0.02 * random_unit(&seed));
+    }
+    BackendSetup s;
+    memset(&s, 0, sizeof s);
+    s.dimensions = dimensions;
+    s.threads = 2;
+    s.room_min[0] = -0.5;
+    s.room_max[0] = far + 1.5;
+    s.room_min[1] = s.room_min[2] = -0.5;
+    s.room_max[1] = s.room_max[2] = 1.5;
+    s.spacing = DP;
+    s.smoothing_length = 2 * DP;
+    s.particle_mass = RHO0 * DP * DP * (dimensions == 2 ? 1 : DP);
+    s.rest_density = RHO0;
+    s.sound_speed = C0;
+    s.alpha = 0.05;
+    s.delta = 0.1;
+    s.gravity = 9.81;
+    s.level = DP * NZ;
+    s.largest_travel = 0.002;
+    s.pair_mask = PAIR_VISCOSITY | PAIR_DIFFUSION;
+    return s;
+}
+
+static ParticleStart all_fluid(int count)
+{
+    ParticleStart start;
+    memset(&start, 0, sizeof start);
+    start.fluid_count = count;
+    start.fluid_position = place;
+    start.fluid_velocity = velocity;
+    start.fluid_excess = excess;
+    return start;
+}
+
+static void rates(const BackendSetup *setup, const ParticleStart *start, float (*a)[3], float *d)
+{
+    Arena arena = arena_create(0);
+    Backend *backend;
+    Error error = {0};
+    const BackendTable *cpu = backend_cpu();
+    CHECK(cpu->create(setup, start, &arena, &backend, &error));
+    CHECK(cpu->probe_rates(backend, a, d, &error));
+    cpu->destroy(backend);
+    arena_destroy(&arena);
+}
+
+/// One particle by the textbook formulas of docs/physics.md, in double.
+static void reference(const BackendSetup *s, int i, double a[3], double *d)
+{
+    double h = s->smoothing_length, b = C0 * C0 * RHO0 / 7,
+           alpha_d = kernel_constant(h, s->dimensions);
+    double rho_i = RHO0 * (1 + (double)excess[i]), p_i = b * (pow(rho_i / RHO0, 7) - 1);
+    double di = excess[i] - hydrostatic_excess(s->level - place[i].z, 9.81, C0);
+    a[0] = a[1] = 0;
+    a[2] = -9.81;
+    *d = 0;
+    for (int k = 0; k < N; k++) {
+        Vec3 x = vec3_sub(place[i], place[k]), v = vec3_sub(velocity[i], velocity[k]);
+        double r = vec3_norm(x), q = r / h;
+        if (k == i || q >= 2) continue;
+        double slope = -5 * alpha_d / (h * h) * pow(1 - q / 2, 3), vx = vec3_dot(v, x);
+        double rho_k = RHO0 * (1 + (double)excess[k]), p_k = b * (pow(rho_k / RHO0, 7) - 1);
+        double mu = h * vx / (r * r + 0.01 * h * h);
+        double viscous = vx < 0 ? -s->alpha * C0 * mu / RHO0 : 0;
+        double f =
+            -s->particle_mass * (p_i / (rho_i * rho_i) + p_k / (rho_k * rho_k) + viscous) * slope;
+        double dk = excess[k] - hydrostatic_excess(s->level - place[k].z, 9.81, C0);
+        a[0] += f * x.x;
+        a[1] += f * x.y;
+        a[2] += f * x.z;
+        *d += s->particle_mass / RHO0 * vx * slope +
+              s->delta * h * C0 * 2 * (dk - di) * -slope * s->particle_mass / RHO0;
+    }
+}
+
+static void compare(int dimensions, double far, unsigned seed)
+{
+    static float a[N][3], d[N];
+    BackendSetup setup = random_water(dimensions, far, seed);
+    if (dimensions == 2) setup.sound_speed = C0;
+    ParticleStart start = all_fluid(N);
+    rates(&setup, &start, a, d);
+    double error2 = 0, sum2 = 0, derror2 = 0, dsum2 = 0;
+    for (int i = 0; i < N; i += 3) {
+        double ra[3], rd;
+        reference(&setup, i, ra, &rd);
+        for (int c = 0; c < 3; c++) {
+            error2 += (a[i][c] - ra[c]) * (a[i][c] - ra[c]);
+            sum2 += ra[c] * ra[c];
+        }
+        derror2 += (d[i] - rd) * (d[i] - rd);
+        dsum2 += rd * rd;
+    }
+    CHECK_NEAR(sqrt(error2 / sum2), 0, 5e-5);
+    CHECK_NEAR(sqrt(derror2 / dsum2), 0, 5e-5);
+}
+
+TEST(rates_agree_with_all_pairs_in_double_3d) { compare(3, 0, 1); }
+TEST(rates_agree_with_all_pairs_in_double_2d) { compare(2, 0, 2); }
+TEST(rates_keep_their_digits_four_thousand_spacings_from_the_origin) { compare(3, 4000 * DP, 3); }
+
+TEST(internal_forces_sum_to_zero)
+{
+    static float a[N][3], d[N];
+    BackendSetup setup = random_water(3, 0, 4);
+    ParticleStart start = all_fluid(N);
+    rates(&setup, &start, a, d);
+    double sum[3] = {0}, size = 0;
+    for (int i = 0; i < N; i++)
+        for (int c = 0; c < 3; c++) {
+            sum[c] += a[i][c] + (c == 2 ? 9.81 : 0);
+            size += fabs(a[i][c]);
+        }
+    for (int c = 0; c < 3; c++)
+        CHECK_NEAR(sum[c] / size, 0, 1e-6);
+}
+
+TEST(bits_do_not_depend_on_the_thread_count)
+{
+    static float a[2][N][3], d[2][N];
+    for (int t = 0; t < 2; t++) {
+        BackendSetup setup = random_water(3, 0, 5);
+        setup.threads = t ? 3 : 1;
+        ParticleStart start = all_fluid(N);
+        rates(&setup, &start, a[t], d[t]);
+    }
+    CHECK(!memcmp(a[0], a[1], sizeof a[0]));
+    CHECK(!memcmp(d[0], d[1], sizeof d[0]));
+}
+
+TEST(a_density_spike_decays)
+{
+    static float a[N][3], d[N];
+    BackendSetup setup = random_water(3, 0, 6);
+    setup.gravity = 0;
+    for (int i = 0; i < N; i++) {
+        velocity[i] = vec3(0, 0, 0);
+        excess[i] = 0;
+    }
+    int spike = 5 * NX * NY + 6 * NX + 7;
+    excess[spike] = 0.01f;
+    ParticleStart start = all_fluid(N);
+    rates(&setup, &start, a, d);
+    CHECK(d[spike] < 0);
+    CHECK(d[spike + 1] > 0);
+}
+
+TEST(switched_off_effects_leave_no_trace_in_the_sums)
+{
+    static float a[2][N][3], d[2][N];
+    for (int t = 0; t < 2; t++) {
+        BackendSetup setup = random_water(3, 0, 7);
+        setup.pair_mask = t ? 0 : setup.pair_mask;
+        setup.alpha = setup.delta = 0;
+        ParticleStart start = all_fluid(N);
+        rates(&setup, &start, a[t], d[t]);
+    }
+    double worst = 0;
+    for (int i = 0; i < N; i++)
+        worst =
+            maxd(worst, fabs((double)a[0][i][0] - a[1][i][0]) + fabs((double)d[0][i] - d[1][i]));
+    CHECK_NEAR(worst, 0, 1e-3);
+}
