@@ -4,12 +4,13 @@
 #define FAIRLEAD_WAVES_H
 
 #include "base/portable.h"
+#include "physics/wave_theory.h"
 #include "scene.h"
 
 /// One regular wave train, ready for evaluation:
-/// theta = k (x cos + y sin) - omega (t - time_origin) + phase.
+/// theta = k ((x - centre_x) cos + (y - centre_y) sin) - omega (t - time_origin) + phase.
 typedef struct WaveTrain {
-    double amplitude;         ///< a = H/2 [m]
+    double amplitude;         ///< a = H/2 [m]; 0 = rest
     double wave_number;       ///< k [1/m]
     double angular_frequency; ///< omega [rad/s]
     double cos_heading, sin_heading;
@@ -20,18 +21,35 @@ typedef struct WaveTrain {
     double level;              ///< still-water level [m]
 } WaveTrain;
 
+/// A train laid over those before it. Its opacity b rises from 0 to 1 by a quintic smoothstep.
+typedef struct WaveLayer {
+    WaveTrain train;
+    WaveTarget target;      ///< what it is, for display
+    double begin, duration; ///< of the rise [s]; the oldest layer is opaque
+} WaveLayer;
+
+enum {
+    WAVE_LAYERS_MAX = 5, ///< the last one is kept for rest
+};
+
 /// Everything about the waves that changes; plain data, copied by checkpoints.
-/// A live change runs in one or two legs: a modest one blends old to new (1-b) old + b new over
-/// blend_periods of the new period; when the heading turns far (over 60 deg) the old train is taken
-/// down first and the new one raised after it.
+///
+/// A live change lays a new train over the present mixture M: (1 - b) M + b new, while M goes on
+/// with whatever change it was in. So weights are never negative and always sum to one — the water
+/// is never asked for more than the highest of the trains — and displacement stays twice
+/// continuously differentiable however fast commands come. A layer that has become opaque drops all
+/// below it.
+///
+/// Modest changes begin at the step after the command; while a dial is dragged the latest command
+/// waits until the newest layer has run a third of its rise. When the heading turns by more than 60
+/// deg or the period changes by more than 30 %, a layer of rest takes the old sea down over one old
+/// period first: trains that differ much would superpose to nearly twice the height.
 typedef struct WaveState {
-    WaveTarget asked;        ///< the last command
-    WaveTrain from, to;      ///< trains before and after the current change
-    double change_begin;     ///< [s]
-    double from_end;         ///< `from` has faded out by then [s]
-    double to_begin, to_end; ///< `to` grows in between [s]
-    bool active;             ///< a change (or the starting ramp) is under way
-    bool has_queued;         ///< another command came during the change
+    WaveTarget asked;                  ///< the last command
+    int layer_count;                   ///< 0 = no waves
+    WaveLayer layers[WAVE_LAYERS_MAX]; ///< oldest first
+    bool active;                       ///< a change (or the starting ramp) is under way
+    bool has_queued;                   ///< `queued` waits for its turn
     WaveTarget queued;
 } WaveState;
 
@@ -45,25 +63,50 @@ WaveState waves_create(const Scene *scene);
 /// limits.
 void waves_command(WaveState *waves, const Scene *scene, const WaveTarget *target, double time);
 
-/// Finish changes that are over and start queued ones; call once per step.
+/// Drop what is covered and start what is queued; call once per step.
 void waves_update(WaveState *waves, const Scene *scene, double time);
 
-/// Weights of the two trains at `time`, each 0..1, and what the wave *is* for display.
+/// Weight of the newest train at `time` and of all before it (rest included); they sum to one.
 void waves_weights(const WaveState *waves, double time, double *from, double *to);
+/// What the wave *is* for display: weighted means of the trains (heading on the circle).
 WaveTarget waves_now(const WaveState *waves, double time);
 
+/// Trains that count at `time`, ready for evaluation by physics/wave_theory.h (one call per step
+/// and many places: what a batch or another backend needs).
+/// @param terms  filled, [WAVE_LAYERS_MAX]   @return how many
+int waves_terms(const WaveState *waves, double time, WaveTerms *terms);
+
 /// Second-order closed-orbit displacement of the column point whose mean place is `mean`
-/// (physics.md, basin), and its velocity by central differences in time.
+/// (physics.md, basin), and its velocity and acceleration. Above still water (freeboard) a column
+/// moves with the point at still water: the orbits' growth with height would fold it.
 Vec3 waves_displacement(const WaveState *waves, Vec3 mean, double time);
 Vec3 waves_orbit_velocity(const WaveState *waves, Vec3 mean, double time);
+Vec3 waves_orbit_acceleration(const WaveState *waves, Vec3 mean, double time);
 
 /// Eulerian velocity at (x, min(z, eta)) less the Stokes drift: what the relaxation zone aims at.
 Vec3 waves_zone_velocity(const WaveState *waves, Vec3 point, double time);
 
-/// Incident elevation above still water [m], Eulerian velocity, acceleration (for lines, pictures).
+/// Incident elevation above still water [m], Eulerian velocity and local acceleration at
+/// (x, min(z, eta)), to second order. In the basin the water itself has waves_zone_velocity: the
+/// Stokes drift is returned at every depth.
 double waves_elevation(const WaveState *waves, double x, double y, double time);
 Vec3 waves_velocity(const WaveState *waves, Vec3 point, double time);
 Vec3 waves_acceleration(const WaveState *waves, Vec3 point, double time);
+
+/// Many ring particles at once, in single precision (1e-6 of the amplitude): mean places →
+/// positions and velocities. Single-threaded: the caller splits the range. Arrays are [count][3],
+/// world [m], [m/s], [m/s^2]; `velocity` and `acceleration` may be NULL.
+void waves_ring_batch(const WaveState *waves, double time, int count, const float (*mean)[3],
+                      float (*position)[3], float (*velocity)[3]);
+void waves_ring_acceleration_batch(const WaveState *waves, double time, int count,
+                                   const float (*mean)[3], float (*acceleration)[3]);
+
+/// waves_zone_velocity of many places [count]; y and v may be NULL (2-D).
+void waves_zone_batch(const WaveState *waves, double time, int count, const float *x,
+                      const float *y, const float *z, float *u, float *v, float *w);
+
+/// Width of the relaxation zone [m]: the case's, or 0.75 of the longest wave that may be set live.
+double waves_zone_width(const Scene *scene);
 
 /// Warnings a user should read: beyond breaking (Miche), too coarse (H/dp < 5), basin too small.
 /// Writes at most `size` characters, lines joined by "; ". @return number of warnings

@@ -1,0 +1,394 @@
+#include "waves.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "physics/wave_theory.h"
+
+/// Turning further, or changing the period by more than this share, takes the old sea down first.
+static const double FAR_HEADING = 60 * PI / 180;
+static const double FAR_PERIOD = 0.30;
+/// A layer runs this share of its rise before the next may begin.
+static const double LAYER_SPACING = 1.0 / 3;
+/// Width of the relaxation zone in longest wave lengths (measured, docs/physics.md).
+static const double ZONE_LENGTHS = 0.75;
+
+double wave_number_airy(double angular_frequency, double depth, double gravity)
+{
+    return wave_theory_number(angular_frequency, depth, gravity);
+}
+
+static double basin_depth(const Scene *scene) { return scene->fluid.level - scene->domain.min.z; }
+
+static double angle_between(double a, double b) { return fabs(remainder(a - b, 2 * PI)); }
+
+/// theta at the basin's centre.
+static double centre_phase(const WaveTrain *train, double time)
+{
+    return train->phase - train->angular_frequency * (time - train->time_origin);
+}
+
+static WaveTrain train_create(const Scene *scene, const WaveTarget *target)
+{
+    const Domain *domain = &scene->domain;
+    WaveTrain train = {0};
+    train.amplitude = target->height / 2;
+    train.angular_frequency = 2 * PI / target->period;
+    train.depth = basin_depth(scene);
+    train.level = scene->fluid.level;
+    train.wave_number =
+        wave_number_airy(train.angular_frequency, train.depth, scene->fluid.gravity);
+    train.cos_heading = cos(target->heading);
+    train.sin_heading = domain->dimensions == 2 ? 0 : sin(target->heading);
+    train.centre_x = (domain->min.x + domain->max.x) / 2;
+    train.centre_y = domain->dimensions == 2 ? 0 : (domain->min.y + domain->max.y) / 2;
+    return train;
+}
+
+WaveState waves_create(const Scene *scene)
+{
+    WaveState waves;
+    memset(&waves, 0, sizeof waves);
+    if (scene->waves.kind == WAVES_NONE) return waves;
+    waves.asked = scene->waves.initial;
+    WaveLayer *base = &waves.layers[0];
+    base->target = waves.asked;
+    base->train = train_create(scene, &waves.asked);
+    waves.layer_count = 1;
+    if (scene->waves.start == WAVE_START_RAMP && scene->waves.ramp_time > 0) {
+        waves.layers[1] = *base;
+        waves.layers[1].duration = scene->waves.ramp_time;
+        waves.layer_count = 2;
+        base->train.amplitude = base->target.height = 0;
+        waves.active = true;
+    }
+    return waves;
+}
+
+/// Whether the target differs so much from a train still in the water that the two should not
+/// superpose.
+static bool far_from_present(const WaveState *waves, const WaveTarget *target)
+{
+    for (int i = 0; i < waves->layer_count; i++) {
+        const WaveTarget *present = &waves->layers[i].target;
+        if (!(present->height > 0) || !(target->height > 0)) continue;
+        double longer = maxd(present->period, target->period);
+        double shorter = mind(present->period, target->period);
+        if (angle_between(present->heading, target->heading) > FAR_HEADING + 1e-9) return true;
+        if (longer > (1 + FAR_PERIOD) * shorter * (1 + 1e-9)) return true;
+    }
+    return false;
+}
+
+/// Lay a train over the others; its phase meets the newest one's at the centre half-way up.
+static void layer_push(WaveState *waves, const WaveTrain *train, const WaveTarget *target,
+                       double time, double duration)
+{
+    ASSERT(waves->layer_count < WAVE_LAYERS_MAX);
+    const WaveLayer *top = &waves->layers[waves->layer_count - 1];
+    WaveLayer *layer = &waves->layers[waves->layer_count];
+    layer->train = *train;
+    layer->target = *target;
+    layer->begin = time;
+    layer->duration = duration;
+    layer->train.time_origin = time + duration / 2;
+    layer->train.phase = remainder(centre_phase(&top->train, layer->train.time_origin), 2 * PI);
+    waves->layer_count++;
+}
+
+/// Let the queued target in if its turn has come.
+static void admit(WaveState *waves, const Scene *scene, double time)
+{
+    const WaveTarget *target = &waves->queued;
+    const WaveLayer *top = &waves->layers[waves->layer_count - 1];
+    if (far_from_present(waves, target)) {
+        if (!(top->target.height > 0)) return; // already going down to rest
+        WaveTrain rest = top->train;
+        WaveTarget none = top->target;
+        rest.amplitude = none.height = 0;
+        layer_push(waves, &rest, &none, time, none.period);
+        return;
+    }
+    bool crowded = waves->layer_count >= WAVE_LAYERS_MAX - 1;
+    bool early = waves->layer_count > 1 && time < top->begin + LAYER_SPACING * top->duration;
+    if (crowded || early) return;
+    WaveTrain train = train_create(scene, target);
+    layer_push(waves, &train, target, time, scene->waves.blend_periods * target->period);
+    waves->has_queued = false;
+}
+
+static void drop_covered(WaveState *waves, double time)
+{
+    for (int top = waves->layer_count - 1; top > 0; top--) {
+        const WaveLayer *layer = &waves->layers[top];
+        if (time < layer->begin + layer->duration) continue;
+        memmove(waves->layers, layer, sizeof *layer * (size_t)(waves->layer_count - top));
+        waves->layer_count -= top;
+        break;
+    }
+    waves->active = waves->layer_count > 1 || waves->has_queued;
+}
+
+void waves_command(WaveState *waves, const Scene *scene, const WaveTarget *target, double time)
+{
+    if (waves->layer_count == 0) return;
+    waves->asked = waves->queued = *target;
+    waves->has_queued = true;
+    waves_update(waves, scene, time);
+}
+
+void waves_update(WaveState *waves, const Scene *scene, double time)
+{
+    if (waves->layer_count == 0) return;
+    drop_covered(waves, time);
+    if (waves->has_queued) admit(waves, scene, time);
+    waves->active = waves->layer_count > 1 || waves->has_queued;
+}
+
+/// Weights of all layers: w_i = b_i prod_{j > i} (1 - b_j), with time derivatives.
+static void layer_weights(const WaveState *waves, double time, WaveStep *weights)
+{
+    WaveStep cover = {1, 0, 0};
+    for (int i = waves->layer_count - 1; i >= 0; i--) {
+        const WaveLayer *layer = &waves->layers[i];
+        WaveStep b = {1, 0, 0};
+        if (i > 0) b = wave_step(time, layer->begin, layer->duration);
+        weights[i].value = b.value * cover.value;
+        weights[i].rate = b.rate * cover.value + b.value * cover.rate;
+        weights[i].curve = b.curve * cover.value + 2 * b.rate * cover.rate + b.value * cover.curve;
+        WaveStep next;
+        next.value = (1 - b.value) * cover.value;
+        next.rate = (1 - b.value) * cover.rate - b.rate * cover.value;
+        next.curve = (1 - b.value) * cover.curve - 2 * b.rate * cover.rate - b.curve * cover.value;
+        cover = next;
+    }
+}
+
+void waves_weights(const WaveState *waves, double time, double *from, double *to)
+{
+    WaveStep weights[WAVE_LAYERS_MAX];
+    layer_weights(waves, time, weights);
+    *to = waves->layer_count ? weights[waves->layer_count - 1].value : 0;
+    *from = waves->layer_count ? 1 - *to : 0;
+}
+
+WaveTarget waves_now(const WaveState *waves, double time)
+{
+    WaveStep weights[WAVE_LAYERS_MAX];
+    WaveTarget now = {0, 0, 0};
+    if (waves->layer_count == 0) return now;
+    layer_weights(waves, time, weights);
+    double period = 0, x = 0, y = 0;
+    for (int i = 0; i < waves->layer_count; i++) {
+        const WaveTarget *target = &waves->layers[i].target;
+        double height = weights[i].value * target->height;
+        now.height += height;
+        period += height * target->period;
+        x += height * cos(target->heading);
+        y += height * sin(target->heading);
+    }
+    const WaveTarget *newest = &waves->layers[waves->layer_count - 1].target;
+    bool visible = now.height > 0;
+    now.period = visible ? period / now.height : newest->period;
+    // The asked heading may be given as 350 or -10 deg: show the turn nearest to it.
+    double turned = hypot(x, y) > 1e-12 * now.height && visible
+                        ? remainder(atan2(y, x) - newest->heading, 2 * PI)
+                        : 0;
+    now.heading = newest->heading + turned;
+    return now;
+}
+
+int waves_terms(const WaveState *waves, double time, WaveTerms *terms)
+{
+    WaveStep weights[WAVE_LAYERS_MAX];
+    int count = 0;
+    layer_weights(waves, time, weights);
+    for (int i = 0; i < waves->layer_count; i++) {
+        const WaveTrain *train = &waves->layers[i].train;
+        bool hidden = weights[i].value == 0 && weights[i].rate == 0 && weights[i].curve == 0;
+        if (!(train->amplitude > 0) || hidden) continue;
+        WaveTerms *w = &terms[count++];
+        *w = wave_terms(train->amplitude, train->wave_number, train->angular_frequency,
+                        train->depth, train->level);
+        w->cos_heading = train->cos_heading;
+        w->sin_heading = train->sin_heading;
+        w->turns_x = train->wave_number * train->cos_heading / (2 * PI);
+        w->turns_y = train->wave_number * train->sin_heading / (2 * PI);
+        double turns = centre_phase(train, time) / (2 * PI) - w->turns_x * train->centre_x -
+                       w->turns_y * train->centre_y;
+        w->turns = remainder(turns, 1.0);
+        w->weight = weights[i].value;
+        w->weight_rate = weights[i].rate;
+        w->weight_curve = weights[i].curve;
+    }
+    return count;
+}
+
+static Vec3 motion_add(Vec3 sum, const WaveTerms *w, WaveMotion m, double weight)
+{
+    return vec3(sum.x + weight * m.along * w->cos_heading,
+                sum.y + weight * m.along * w->sin_heading, sum.z + weight * m.up);
+}
+
+Vec3 waves_displacement(const WaveState *waves, Vec3 mean, double time)
+{
+    WaveTerms terms[WAVE_LAYERS_MAX];
+    int count = waves_terms(waves, time, terms);
+    Vec3 sum = vec3(0, 0, 0);
+    for (int i = 0; i < count; i++) {
+        const WaveTerms *w = &terms[i];
+        WavePlace p = wave_place(*w, mean.x, mean.y, mind(mean.z, w->level));
+        sum = motion_add(sum, w, wave_orbit(*w, p), w->weight);
+    }
+    return sum;
+}
+
+Vec3 waves_orbit_velocity(const WaveState *waves, Vec3 mean, double time)
+{
+    WaveTerms terms[WAVE_LAYERS_MAX];
+    int count = waves_terms(waves, time, terms);
+    Vec3 sum = vec3(0, 0, 0);
+    for (int i = 0; i < count; i++) {
+        const WaveTerms *w = &terms[i];
+        WavePlace p = wave_place(*w, mean.x, mean.y, mind(mean.z, w->level));
+        sum = motion_add(sum, w, wave_orbit_rate(*w, p), w->weight);
+        sum = motion_add(sum, w, wave_orbit(*w, p), w->weight_rate);
+    }
+    return sum;
+}
+
+Vec3 waves_orbit_acceleration(const WaveState *waves, Vec3 mean, double time)
+{
+    WaveTerms terms[WAVE_LAYERS_MAX];
+    int count = waves_terms(waves, time, terms);
+    Vec3 sum = vec3(0, 0, 0);
+    for (int i = 0; i < count; i++) {
+        const WaveTerms *w = &terms[i];
+        WavePlace p = wave_place(*w, mean.x, mean.y, mind(mean.z, w->level));
+        sum = motion_add(sum, w, wave_orbit_curve(*w, p), w->weight);
+        sum = motion_add(sum, w, wave_orbit_rate(*w, p), 2 * w->weight_rate);
+        sum = motion_add(sum, w, wave_orbit(*w, p), w->weight_curve);
+    }
+    return sum;
+}
+
+static double elevation_sum(const WaveTerms *terms, int count, double x, double y)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        WavePlace p = wave_place(terms[i], x, y, terms[i].level);
+        sum += terms[i].weight * wave_elevation(terms[i], p);
+    }
+    return sum;
+}
+
+double waves_elevation(const WaveState *waves, double x, double y, double time)
+{
+    WaveTerms terms[WAVE_LAYERS_MAX];
+    int count = waves_terms(waves, time, terms);
+    return elevation_sum(terms, count, x, y);
+}
+
+typedef WaveMotion (*FieldFunction)(WaveTerms w, WavePlace p);
+static WaveMotion velocity_field(WaveTerms w, WavePlace p) { return wave_velocity(w, p); }
+static WaveMotion acceleration_field(WaveTerms w, WavePlace p) { return wave_acceleration(w, p); }
+static WaveMotion driftless_field(WaveTerms w, WavePlace p)
+{
+    WaveMotion m = wave_velocity(w, p);
+    m.along -= wave_drift(w, p);
+    return m;
+}
+
+/// Weighted sum of a field at (x, min(z, eta)).
+static Vec3 field_sum(const WaveState *waves, Vec3 point, double time, FieldFunction field)
+{
+    WaveTerms terms[WAVE_LAYERS_MAX];
+    int count = waves_terms(waves, time, terms);
+    double eta = elevation_sum(terms, count, point.x, point.y);
+    Vec3 sum = vec3(0, 0, 0);
+    for (int i = 0; i < count; i++) {
+        const WaveTerms *w = &terms[i];
+        WavePlace p = wave_place(*w, point.x, point.y, mind(point.z, w->level + eta));
+        sum = motion_add(sum, w, field(*w, p), w->weight);
+    }
+    return sum;
+}
+
+Vec3 waves_velocity(const WaveState *waves, Vec3 point, double time)
+{
+    return field_sum(waves, point, time, velocity_field);
+}
+Vec3 waves_acceleration(const WaveState *waves, Vec3 point, double time)
+{
+    return field_sum(waves, point, time, acceleration_field);
+}
+Vec3 waves_zone_velocity(const WaveState *waves, Vec3 point, double time)
+{
+    return field_sum(waves, point, time, driftless_field);
+}
+
+// ---------------------------------------------------------------------------- what to warn of
+
+static double wave_length(const Scene *scene, double period)
+{
+    return 2 * PI / wave_number_airy(2 * PI / period, basin_depth(scene), scene->fluid.gravity);
+}
+
+double waves_zone_width(const Scene *scene)
+{
+    if (scene->waves.kind == WAVES_NONE || scene->domain.kind != DOMAIN_BASIN) return 0;
+    if (scene->waves.zone_width > 0) return scene->waves.zone_width;
+    double longest = scene->waves.initial.period;
+    if (scene->waves.period_limits.max > longest) longest = scene->waves.period_limits.max;
+    return ZONE_LENGTHS * wave_length(scene, longest);
+}
+
+/// Appends one warning; counts it even where the text has no room left.
+static void warn(char *text, int size, int *count, const char *warning)
+{
+    int used = size > 0 ? (int)strlen(text) : 0;
+    if (size > 0) snprintf(text + used, (size_t)(size - used), "%s%s", *count ? "; " : "", warning);
+    (*count)++;
+}
+
+int waves_warnings(const Scene *scene, char *text, int size)
+{
+    int count = 0;
+    char line[200];
+    if (size > 0) text[0] = '\0';
+    if (scene->waves.kind == WAVES_NONE) return 0;
+    const WaveTarget *sea = &scene->waves.initial;
+    double depth = basin_depth(scene), length = wave_length(scene, sea->period);
+    double breaking = wave_breaking_height(2 * PI / length, depth);
+    if (sea->height > 0.8 * breaking) {
+        snprintf(line, sizeof line,
+                 "wave height %.3g m is %.0f %% of the breaking height %.3g m (Miche)", sea->height,
+                 100 * sea->height / breaking, breaking);
+        warn(text, size, &count, line);
+    }
+    double resolution = sea->height / scene->fluid.spacing;
+    if (sea->height > 0 && resolution < 5) {
+        snprintf(line, sizeof line, "wave height is %.2g spacings: under 5 waves lose height",
+                 resolution);
+        warn(text, size, &count, line);
+    }
+    // Ursell's number: beyond 26 the second-order wave grows a false crest in its trough.
+    double ursell = sea->height * length * length / (depth * depth * depth);
+    if (ursell > 26) {
+        snprintf(line, sizeof line,
+                 "water is too shallow for second-order waves (Ursell number %.3g > 26)", ursell);
+        warn(text, size, &count, line);
+    }
+    if (scene->domain.kind != DOMAIN_BASIN) return count;
+    const Domain *domain = &scene->domain;
+    double inside = domain->max.x - domain->min.x;
+    if (domain->dimensions == 3) inside = mind(inside, domain->max.y - domain->min.y);
+    inside -= 2 * waves_zone_width(scene);
+    if (inside < length) {
+        snprintf(line, sizeof line,
+                 "undriven interior is %.3g m wide, under one wave length (%.3g m)", inside,
+                 length);
+        warn(text, size, &count, line);
+    }
+    return count;
+}
