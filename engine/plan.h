@@ -32,7 +32,8 @@ typedef struct EffectPlan {
 typedef struct BodyPlan {
     BodyGeometry geometry;
     int particle_count;
-    Vec3 *particles; ///< geometry axes [particle_count][m]
+    Vec3 *particles;       ///< geometry axes [particle_count][m]
+    DistanceGrid distance; ///< for carving the water
 } BodyPlan;
 
 typedef struct LinePlan {
@@ -53,9 +54,11 @@ typedef struct Plan {
     unsigned pair_mask;  ///< bits of the active PAIR effects
     EffectPlan effects[EFFECT_COUNT];
     double smoothing_length; ///< h [m]
+    int wall_layers;         ///< of dummy particles behind walls and skins
     double particle_mass;    ///< [kg], 2-D per metre
     double sound_speed;      ///< c0 [m/s]
     char sound_speed_because[160];
+    double largest_speed;     ///< expected, chose the sound speed [m/s]
     double time_step;         ///< [s]
     char time_step_limit[64]; ///< which limit binds
     double zone_width;        ///< [m], 0 without

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "backend/backend.h"
 #include "base/arena.h"
 #include "base/error.h"
 #include "body.h"
@@ -15,7 +16,18 @@ typedef struct HealthRecord {
     HealthStatus status;
     char message[256]; ///< effect, particle or node, time, value and violated limit
     int recoveries;    ///< roll-backs so far
+    int tries;         ///< halvings of the step now in force
 } HealthRecord;
+
+/// A copy of everything that changes, taken while all was well.
+typedef struct Checkpoint {
+    double time; ///< NAN before the first one
+    int64_t step;
+    WaveState waves;
+    Body *bodies;
+    double **lines;  ///< line_state_save of each
+    void *particles; ///< Backend.save
+} Checkpoint;
 
 typedef struct State {
     double time; ///< simulated [s]
@@ -25,12 +37,20 @@ typedef struct State {
     Body *bodies; ///< [scene->body_count]
     Line *lines;  ///< [scene->line_count]
     HealthRecord health;
-    double wall_time;                            ///< spent in step_advance [s]
-    double smallest_step, largest_step;          ///< used so far [s]
-    double density_error, largest_density_error; ///< |rho/rho0 - 1| now and so far [-]
-    double largest_speed;                        ///< of the fluid now [m/s]
-    double effect_seconds[EFFECT_COUNT];         ///< wall time spent in each effect so far [s]
-    double base_seconds;                         ///< pressure forces, integration, sorting [s]
+    double wall_time;                                 ///< spent in step_advance [s]
+    double smallest_step, largest_step;               ///< used so far [s]
+    double density_error, largest_density_error;      ///< |rho/rho0 - 1| now and so far [-]
+    double largest_speed;                             ///< of the fluid now [m/s]
+    double effect_seconds[EFFECT_COUNT];              ///< wall time spent in each effect so far [s]
+    double base_seconds;                              ///< pressure forces, integration, sorting [s]
+    const BackendTable *backend;                      ///< functions of the particles' machine
+    Backend *particles;                               ///< owned by the backend
+    BodyLoad *loads;                                  ///< of the last forces call [body_count]
+    BodyPose *poses;                                  ///< at the end of the step [body_count]
+    Vec3 *centres;                                    ///< of gravity [body_count]
+    Checkpoint checkpoint;                            ///< the last good state, for roll-back
+    double line_seconds, body_seconds, probe_seconds; ///< wall time of host passes [s]
+    double pair_cost[2]; ///< share of viscosity and diffusion in their sweeps [-]
     Arena arena;
 } State;
 

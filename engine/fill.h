@@ -1,0 +1,27 @@
+/// Where particles are at t = 0: water on a lattice, carved around bodies; dummies behind walls, in
+/// the ring, in the piston and in bodies.
+#ifndef FAIRLEAD_FILL_H
+#define FAIRLEAD_FILL_H
+
+#include "backend/backend.h"
+#include "plan.h"
+#include "scene.h"
+
+/// Counts, and when `start` has arrays (counts of an earlier call), the particles themselves.
+typedef struct Fill {
+    int fluid_count, wall_count, ring_count, piston_count, body_count;
+    double particle_mass; ///< [kg]
+    Vec3 *fluid_position, *fluid_velocity;
+    float *fluid_excess;
+    Vec3 *dummy_reference;
+    int16_t *dummy_owner;
+} Fill;
+
+/// Count only: fill->fluid_position is NULL; otherwise write as well. The plan needs its smoothing
+/// length, layers, sound speed and bodies by then.
+void fill_particles(const Scene *scene, const Plan *plan, Fill *fill);
+
+/// Room for the counted particles, then the particles.
+bool fill_create(const Scene *scene, const Plan *plan, Arena *arena, Fill *fill, Error *error);
+
+#endif

@@ -1,0 +1,96 @@
+#include "health.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void health_checkpoint(const Scene *scene, State *state)
+{
+    Checkpoint *c = &state->checkpoint;
+    if (state->time < c->time + HEALTH_CHECKPOINT_EVERY) return;
+    // healthy for a whole interval: the step may grow again
+    if (state->health.tries > 0) {
+        state->health.tries--;
+        state->time_step *= 2;
+    }
+    c->time = state->time;
+    c->step = state->step;
+    c->waves = state->waves;
+    memcpy(c->bodies, state->bodies, (size_t)scene->body_count * sizeof(Body));
+    for (int l = 0; l < scene->line_count; l++)
+        line_state_save(&state->lines[l], c->lines[l]);
+    state->backend->save(state->particles, c->particles);
+}
+
+static void roll_back(const Scene *scene, State *state)
+{
+    const Checkpoint *c = &state->checkpoint;
+    WaveTarget asked = state->waves.asked;
+    state->time = c->time;
+    state->step = c->step;
+    state->waves = c->waves;
+    memcpy(state->bodies, c->bodies, (size_t)scene->body_count * sizeof(Body));
+    for (int l = 0; l < scene->line_count; l++)
+        line_state_restore(&state->lines[l], c->lines[l]);
+    state->backend->restore(state->particles, c->particles);
+    // a command given since the checkpoint stays in force
+    if (scene->waves.kind != WAVES_NONE && memcmp(&asked, &c->waves.asked, sizeof asked))
+        waves_command(&state->waves, scene, &asked, state->time);
+}
+
+/// First violated limit as text; false when all is well.
+static bool find_sickness(const Scene *scene, const Plan *plan, const State *state,
+                          const ParticleSums *sums, char *text, int size)
+{
+    if (sums->sick >= 0)
+        return snprintf(text, (size_t)size, "particle %d: not a number at t = %.4f s", sums->sick,
+                        state->time);
+    if (sums->escaped >= 0)
+        return snprintf(text, (size_t)size, "particle %d: left the room at t = %.4f s",
+                        sums->escaped, state->time);
+    double excess = maxd(sums->largest_excess, -sums->smallest_excess);
+    if (excess > HEALTH_EXCESS_LIMIT)
+        return snprintf(text, (size_t)size, "fluid: density error %.3g at t = %.4f s; limit %.3g",
+                        excess, state->time, HEALTH_EXCESS_LIMIT);
+    if (sums->largest_speed > HEALTH_SPEED_LIMIT * plan->sound_speed)
+        return snprintf(text, (size_t)size, "fluid: speed %.3g m/s at t = %.4f s; limit %.3g m/s",
+                        sums->largest_speed, state->time, HEALTH_SPEED_LIMIT * plan->sound_speed);
+    for (int b = 0; b < scene->body_count; b++) {
+        const Body *body = &state->bodies[b];
+        double sum = vec3_dot(body->position, body->position) +
+                     vec3_dot(body->velocity, body->velocity) +
+                     vec3_dot(body->angular_velocity, body->angular_velocity);
+        if (!(sum < 1e12))
+            return snprintf(text, (size_t)size, "body %s: not a number at t = %.4f s",
+                            scene->bodies[b].name, state->time);
+    }
+    return false;
+}
+
+bool health_judge(const Scene *scene, const Plan *plan, State *state, const ParticleSums *sums,
+                  Error *error)
+{
+    char text[256];
+    bool sick = true;
+    if (sums)
+        sick = find_sickness(scene, plan, state, sums, text, sizeof text);
+    else
+        snprintf(text, sizeof text, "%.240s", error->message);
+    if (!sick) {
+        state->density_error = maxd(sums->largest_excess, -sums->smallest_excess);
+        state->largest_density_error = maxd(state->largest_density_error, state->density_error);
+        state->largest_speed = sums->largest_speed;
+        return true;
+    }
+    snprintf(state->health.message, sizeof state->health.message, "%s", text);
+    roll_back(scene, state);
+    if (state->health.tries++ >= HEALTH_TRIES) {
+        state->health.status = HEALTH_FAILED;
+        return error_set(error, ERROR_PHYSICS, "%s; %d roll-backs with smaller steps did not help",
+                         text, HEALTH_TRIES);
+    }
+    state->health.status = HEALTH_RECOVERED;
+    state->health.recoveries++;
+    state->time_step *= 0.5;
+    return true;
+}

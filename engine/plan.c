@@ -1,0 +1,268 @@
+#include "plan.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <omp.h>
+
+#include "backend/backend.h"
+#include "backend/sweep.h"
+#include "body.h"
+#include "fill.h"
+#include "waves.h"
+
+/// c0 dt/h. The leapfrog of backend.h holds 1.2 in a still tank (docs/performance.md).
+static const double COURANT = 1.0;
+
+static void choose_sound_speed(const Scene *scene, Plan *plan)
+{
+    const Fluid *fluid = &scene->fluid;
+    double depth = fluid->level - scene->domain.min.z, speed = sqrt(fluid->gravity * depth);
+    const char *what = "sqrt(g d), depth";
+    if (fluid->block_count) {
+        double top = scene->domain.min.z;
+        for (int b = 0; b < fluid->block_count; b++)
+            top = maxd(top, fluid->blocks[b].max.z);
+        depth = top - scene->domain.min.z;
+        speed = sqrt(2 * fluid->gravity * depth);
+        what = "sqrt(2 g H), falling column";
+    }
+    for (int b = 0; b < scene->body_count; b++)
+        for (int f = 0; f < 3; f++) {
+            const Freedom *freedom = &scene->bodies[b].freedoms[f];
+            double v = fabs(scene->bodies[b].initial_velocity[f]);
+            if (freedom->kind == FREEDOM_PRESCRIBED)
+                v = maxd(v, 2 * PI * freedom->amplitude / freedom->period);
+            if (v > speed) what = "speed of a body";
+            speed = maxd(speed, v);
+        }
+    plan->largest_speed = speed;
+    plan->sound_speed = fluid->sound_speed_ratio * speed;
+    snprintf(plan->sound_speed_because, sizeof plan->sound_speed_because,
+             "%g x %.3g m/s (%s %.3g m)", fluid->sound_speed_ratio, speed, what, depth);
+    if (fluid->sound_speed > 0) {
+        plan->sound_speed = fluid->sound_speed;
+        snprintf(plan->sound_speed_because, sizeof plan->sound_speed_because,
+                 "given as fluid.sound_speed_ms; the rule asks for %.3g",
+                 fluid->sound_speed_ratio * speed);
+    }
+}
+
+static void limit_step(Plan *plan, double limit, const char *why)
+{
+    if (limit >= plan->time_step) return;
+    plan->time_step = limit;
+    snprintf(plan->time_step_limit, sizeof plan->time_step_limit, "%s", why);
+}
+
+/// Acoustic, gravity and viscous limits (Monaghan 1992); each effect's own.
+static void choose_time_step(const Scene *scene, Plan *plan)
+{
+    double h = plan->smoothing_length, c0 = plan->sound_speed;
+    plan->time_step = INFINITY;
+    limit_step(plan, COURANT * h / c0, "sound");
+    limit_step(plan, 0.25 * sqrt(h / scene->fluid.gravity), "gravity");
+    // alpha h c0/(2 (n + 2)) is the artificial viscosity's kinematic equivalent
+    double nu = scene->fluid.alpha * h * c0 / (2 * (scene->domain.dimensions + 2));
+    if (nu > 0) limit_step(plan, 0.125 * h * h / nu, "viscosity");
+    for (int b = 0; b < scene->body_count; b++) {
+        Body body = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
+        double limit = body_step_limit(&body, &scene->bodies[b]);
+        char why[64];
+        snprintf(why, sizeof why, "springs of %.40s", scene->bodies[b].name);
+        plan->effects[EFFECT_BODIES].step_limit =
+            mind(plan->effects[EFFECT_BODIES].step_limit, limit);
+        limit_step(plan, limit, why);
+    }
+}
+
+static bool mesh_bodies(const Scene *scene, Plan *plan, Error *error)
+{
+    size_t count = (size_t)scene->body_count;
+    TRY(plan->bodies = arena_take(&plan->arena, count, sizeof(BodyPlan), "bodies", error));
+    double dp = scene->fluid.spacing;
+    for (int b = 0; b < scene->body_count; b++) {
+        BodyPlan *body = &plan->bodies[b];
+        TRY(body_geometry_create(scene, b, &plan->arena, &body->geometry, error));
+        TRY(hull_particles(&body->geometry.mesh, dp, plan->wall_layers * dp,
+                           scene->domain.dimensions, &plan->arena, &body->particles,
+                           &body->particle_count, error));
+        TRY(distance_grid_create(&body->geometry.mesh, 0.5 * dp, 2 * dp, &plan->arena,
+                                 &body->distance, error));
+    }
+    return true;
+}
+
+/// World place of an end at t = 0.
+static Vec3 end_place(const Scene *scene, const Plan *plan, const LineEnd *end)
+{
+    if (end->body < 0) return end->position;
+    Body body = body_create(&scene->bodies[end->body], &plan->bodies[end->body].geometry);
+    return body_point(&body, end->position);
+}
+
+static bool hang_lines(const Scene *scene, Plan *plan, Error *error)
+{
+    size_t count = (size_t)scene->line_count;
+    TRY(plan->lines = arena_take(&plan->arena, count, sizeof(LinePlan), "lines", error));
+    WaterField water = {NULL,
+                        NULL,
+                        scene->fluid.level,
+                        scene->fluid.density,
+                        scene->fluid.gravity,
+                        scene->domain.min.z};
+    for (int l = 0; l < scene->line_count; l++) {
+        LinePlan *line = &plan->lines[l];
+        char where[32];
+        snprintf(where, sizeof where, "lines[%d]", l);
+        line->anchor = end_place(scene, plan, &scene->lines[l].anchor);
+        line->fairlead = end_place(scene, plan, &scene->lines[l].fairlead);
+        TRY(line_statics(&scene->lines[l], line->anchor, line->fairlead, &water, where, NULL,
+                         &line->statics, error));
+    }
+    return true;
+}
+
+static void set_effect(Plan *plan, EffectId id, bool active, size_t bytes, const char *because)
+{
+    plan->effects[id].active = active;
+    plan->effects[id].bytes = active ? bytes : 0;
+    snprintf(plan->effects[id].because, sizeof plan->effects[id].because, "%s", because);
+}
+
+static void name_effects(Plan *plan)
+{
+    static const EffectPlan table[EFFECT_COUNT] = {
+#define EFFECT(id, effect_name, effect_kind, effect_source)                                        \
+    {.name = effect_name, .kind = effect_kind, .source = effect_source, .step_limit = INFINITY},
+#include "effects.def"
+#undef EFFECT
+    };
+    memcpy(plan->effects, table, sizeof table);
+}
+
+/// Bytes of one particle in a set that moves, and in one that never does.
+enum { SORTED_BYTES = 116, MOVING_BYTES = 158 };
+
+static void choose_effects(const Scene *scene, Plan *plan, const Fill *fill)
+{
+    const Fluid *fluid = &scene->fluid;
+    char text[160];
+    snprintf(text, sizeof text, "fluid.alpha = %g", fluid->alpha);
+    set_effect(plan, EFFECT_VISCOSITY, fluid->alpha > 0, 0, text);
+    snprintf(text, sizeof text, "fluid.delta = %g", fluid->delta);
+    set_effect(plan, EFFECT_DIFFUSION, fluid->delta > 0, 4 * (size_t)fill->fluid_count, text);
+    snprintf(text, sizeof text, "domain.kind: %d dummy particles in %d layers", fill->wall_count,
+             plan->wall_layers);
+    set_effect(plan, EFFECT_WALLS, fill->wall_count > 0,
+               (size_t)SORTED_BYTES * (size_t)fill->wall_count, text);
+    bool waves = scene->waves.kind != WAVES_NONE;
+    bool basin = waves && scene->domain.kind == DOMAIN_BASIN;
+    bool flume = waves && scene->domain.kind == DOMAIN_FLUME;
+    const char *no_waves = waves ? "waves are made another way" : "waves.kind is none";
+    snprintf(text, sizeof text, "waves in a basin: %d moving dummies", fill->ring_count);
+    set_effect(plan, EFFECT_RING, basin, (size_t)MOVING_BYTES * (size_t)fill->ring_count,
+               basin ? text : no_waves);
+    snprintf(text, sizeof text, "waves in a basin: %.3g m wide", plan->zone_width);
+    set_effect(plan, EFFECT_ZONE, basin, 0, basin ? text : no_waves);
+    snprintf(text, sizeof text, "waves in a flume: %d moving dummies", fill->piston_count);
+    set_effect(plan, EFFECT_PISTON, flume, (size_t)MOVING_BYTES * (size_t)fill->piston_count,
+               flume ? text : no_waves);
+    snprintf(text, sizeof text, "waves in a flume: %.3g m long", plan->zone_width);
+    set_effect(plan, EFFECT_BEACH, flume, 0, flume ? text : no_waves);
+    snprintf(text, sizeof text, scene->body_count ? "bodies: %d, %d dummy particles" : "no bodies",
+             scene->body_count, fill->body_count);
+    set_effect(plan, EFFECT_BODIES, scene->body_count > 0,
+               (size_t)MOVING_BYTES * (size_t)fill->body_count, text);
+    size_t nodes = 0;
+    for (int l = 0; l < scene->line_count; l++)
+        nodes += (size_t)scene->lines[l].segments + 1;
+    snprintf(text, sizeof text, scene->line_count ? "lines: %d, %zu nodes" : "no lines",
+             scene->line_count, nodes);
+    set_effect(plan, EFFECT_LINES, scene->line_count > 0, nodes * 40 * sizeof(double), text);
+    snprintf(text, sizeof text, scene->gauge_count ? "probes.gauges: %d" : "no gauges",
+             scene->gauge_count);
+    set_effect(plan, EFFECT_GAUGES, scene->gauge_count > 0, 0, text);
+    snprintf(text, sizeof text, scene->pressure_probe_count ? "probes.pressure: %d" : "no probes",
+             scene->pressure_probe_count);
+    set_effect(plan, EFFECT_PRESSURE_PROBES, scene->pressure_probe_count > 0, 0, text);
+}
+
+static void count_bytes(Plan *plan, const Fill *fill)
+{
+    // sorted arrays with half a spare, the half list of about 60 entries a cluster
+    size_t bytes = (size_t)(1.5 * SORTED_BYTES + 60) * (size_t)fill->fluid_count;
+    for (int e = 0; e < EFFECT_COUNT; e++)
+        bytes += plan->effects[e].bytes;
+    plan->bytes = bytes;
+}
+
+static bool check_memory(const Scene *scene, const Plan *plan, Error *error)
+{
+    size_t limit = plan->options.memory_limit;
+    if (!limit) limit = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE) / 4 * 3;
+    if (plan->bytes <= limit) return true;
+    double factor = cbrt((double)plan->bytes / (double)limit);
+    return error_set(error, ERROR_INPUT,
+                     "fluid.spacing_m = %g: %d particles need %.1f GB, %.1f GB may be used; "
+                     "must be at least %.3g m here",
+                     scene->fluid.spacing, plan->fluid_count, (double)plan->bytes / 1e9,
+                     (double)limit / 1e9, scene->fluid.spacing * factor);
+}
+
+static bool build(const Scene *scene, Plan *plan, Error *error)
+{
+    TRY(backend_choose(plan->options.backend, error));
+    plan->backend = backend_choose(plan->options.backend, error)->name;
+    snprintf(plan->variant, sizeof plan->variant, "half-pair clusters of 8, %s",
+             sweep_table_choose()->level);
+    double dp = scene->fluid.spacing;
+    plan->smoothing_length = scene->fluid.smoothing_ratio * dp;
+    // a particle dp/2 from the wall sees layers at dp, 2 dp, …: those below 2h count
+    plan->wall_layers = (int)ceil(2 * scene->fluid.smoothing_ratio - 1e-6) - 1;
+    plan->zone_width = scene->waves.kind == WAVES_NONE ? 0 : waves_zone_width(scene);
+    plan->pair_mask = (scene->fluid.alpha > 0 ? PAIR_VISCOSITY : 0) |
+                      (scene->fluid.delta > 0 ? PAIR_DIFFUSION : 0);
+    choose_sound_speed(scene, plan);
+    name_effects(plan);
+    TRY(mesh_bodies(scene, plan, error));
+    TRY(hang_lines(scene, plan, error));
+    choose_time_step(scene, plan);
+    Fill fill = {0};
+    fill_particles(scene, plan, &fill);
+    plan->fluid_count = fill.fluid_count;
+    plan->wall_count = fill.wall_count + fill.ring_count + fill.piston_count;
+    plan->body_particle_count = fill.body_count;
+    plan->particle_mass = fill.particle_mass;
+    if (!fill.fluid_count)
+        return error_set(error, ERROR_INPUT,
+                         "fluid.spacing_m = %g: the domain holds no particle; "
+                         "must be smaller",
+                         dp);
+    choose_effects(scene, plan, &fill);
+    count_bytes(plan, &fill);
+    return check_memory(scene, plan, error);
+}
+
+bool plan_build(const Scene *scene, const EngineOptions *options, Plan *plan, Error *error)
+{
+    memset(plan, 0, sizeof *plan);
+    plan->options = *options;
+    if (plan->options.threads <= 0) plan->options.threads = omp_get_max_threads();
+    plan->arena = arena_create(0);
+    plan->predicted_slowness = NAN;
+    if (build(scene, plan, error)) {
+        waves_warnings(scene, plan->warnings, sizeof plan->warnings);
+        return true;
+    }
+    plan_destroy(plan);
+    return false;
+}
+
+void plan_destroy(Plan *plan)
+{
+    arena_destroy(&plan->arena);
+    memset(plan, 0, sizeof *plan);
+}

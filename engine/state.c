@@ -1,0 +1,164 @@
+#include "state.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "backend/sweep.h"
+#include "engine.h"
+#include "fill.h"
+#include "step.h"
+
+static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
+{
+    const Domain *d = &scene->domain;
+    BackendSetup s;
+    memset(&s, 0, sizeof s);
+    s.dimensions = d->dimensions;
+    s.threads = plan->options.threads;
+    s.body_count = scene->body_count;
+    s.spacing = scene->fluid.spacing;
+    s.smoothing_length = plan->smoothing_length;
+    s.particle_mass = plan->particle_mass;
+    s.rest_density = scene->fluid.density;
+    s.sound_speed = plan->sound_speed;
+    s.alpha = scene->fluid.alpha;
+    s.delta = scene->fluid.delta;
+    s.gravity = scene->fluid.gravity;
+    s.level = scene->fluid.level;
+    s.largest_travel = 0.25 * plan->largest_speed * plan->time_step;
+    s.pair_mask = plan->pair_mask;
+    // dummies behind the walls, waves of the ring, bodies that stick out, spray above
+    double side = (plan->wall_layers + 1) * s.spacing + scene->waves.height_limits.max;
+    double top = d->max.z + 0.5 * (d->max.z - d->min.z);
+    for (int b = 0; b < scene->body_count; b++) {
+        const MeshProperties *p = &plan->bodies[b].geometry.properties;
+        top = maxd(top, d->max.z + vec3_norm(vec3_sub(p->max, p->min)));
+    }
+    s.room_min[0] = d->min.x - side;
+    s.room_max[0] = d->max.x + side;
+    s.room_min[1] = d->dimensions == 2 ? -s.spacing : d->min.y - side;
+    s.room_max[1] = d->dimensions == 2 ? s.spacing : d->max.y + side;
+    s.room_min[2] = d->min.z - side;
+    s.room_max[2] = top;
+    return s;
+}
+
+static bool create_particles(const Scene *scene, const Plan *plan, State *state, Error *error)
+{
+    Arena scratch = arena_create(0);
+    Fill fill;
+    bool good = fill_create(scene, plan, &scratch, &fill, error);
+    if (good) {
+        ParticleStart start = {
+            .fluid_count = fill.fluid_count,
+            .fluid_position = fill.fluid_position,
+            .fluid_velocity = fill.fluid_velocity,
+            .fluid_excess = fill.fluid_excess,
+            .dummy_count = fill.wall_count + fill.ring_count + fill.piston_count + fill.body_count,
+            .dummy_reference = fill.dummy_reference,
+            .dummy_owner = fill.dummy_owner,
+        };
+        BackendSetup setup = backend_setup(scene, plan);
+        state->backend = backend_choose(plan->options.backend, error);
+        good = state->backend &&
+               state->backend->create(&setup, &start, &state->arena, &state->particles, error);
+    }
+    arena_destroy(&scratch);
+    return good;
+}
+
+static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State *state,
+                                    Error *error)
+{
+    size_t bodies = (size_t)scene->body_count, lines = (size_t)scene->line_count;
+    TRY(state->bodies = arena_take(&state->arena, bodies, sizeof(Body), "bodies", error));
+    TRY(state->loads = arena_take(&state->arena, bodies, sizeof(BodyLoad), "loads", error));
+    TRY(state->poses = arena_take(&state->arena, bodies, sizeof(BodyPose), "poses", error));
+    TRY(state->centres = arena_take(&state->arena, bodies, sizeof(Vec3), "centres", error));
+    TRY(state->lines = arena_take(&state->arena, lines, sizeof(Line), "lines", error));
+    for (int b = 0; b < scene->body_count; b++)
+        state->bodies[b] = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
+    WaterField water = step_water(scene, state);
+    for (int l = 0; l < scene->line_count; l++) {
+        LineStatics statics;
+        char where[32];
+        snprintf(where, sizeof where, "lines[%d]", l);
+        TRY(line_create(&scene->lines[l], plan->lines[l].anchor, plan->lines[l].fairlead, &water,
+                        where, &state->arena, &state->lines[l], &statics, error));
+    }
+    return true;
+}
+
+static bool create_checkpoint(const Scene *scene, State *state, Error *error)
+{
+    Checkpoint *c = &state->checkpoint;
+    size_t bodies = (size_t)scene->body_count, lines = (size_t)scene->line_count;
+    c->time = NAN;
+    TRY(c->bodies = arena_take(&state->arena, bodies, sizeof(Body), "checkpoint", error));
+    TRY(c->lines = arena_take(&state->arena, lines, sizeof(double *), "checkpoint", error));
+    for (int l = 0; l < scene->line_count; l++)
+        TRY(c->lines[l] = arena_take(&state->arena, line_state_size(&state->lines[l]),
+                                     sizeof(double), "checkpoint", error));
+    TRY(c->particles = arena_take(&state->arena, state->backend->state_size(state->particles), 1,
+                                  "checkpoint", error));
+    return true;
+}
+
+/// What the pair effects cost in their sweeps, measured once: a bit cannot be timed while it runs.
+static bool measure_pair_costs(const Scene *scene, const Plan *plan, State *state, Error *error)
+{
+    for (int b = 0; b < scene->body_count; b++)
+        state->centres[b] = state->bodies[b].position;
+    TRY(state->backend->forces(state->particles, state->centres, state->loads, error));
+    if (plan->pair_mask & PAIR_VISCOSITY)
+        state->pair_cost[0] = state->backend->pair_cost(state->particles, PAIR_VISCOSITY);
+    if (plan->pair_mask & PAIR_DIFFUSION)
+        state->pair_cost[1] = state->backend->pair_cost(state->particles, PAIR_DIFFUSION);
+    return true;
+}
+
+bool state_create(const Scene *scene, const Plan *plan, State **result, Error *error)
+{
+    Arena arena = arena_create(0);
+    State *state = arena_take(&arena, 1, sizeof *state, "state", error);
+    if (!state) return false;
+    state->arena = arena;
+    state->time_step = state->smallest_step = state->largest_step = plan->time_step;
+    if (scene->waves.kind != WAVES_NONE) state->waves = waves_create(scene);
+    if (create_particles(scene, plan, state, error) &&
+        create_bodies_and_lines(scene, plan, state, error) &&
+        create_checkpoint(scene, state, error) && measure_pair_costs(scene, plan, state, error)) {
+        *result = state;
+        return true;
+    }
+    state_destroy(state);
+    return false;
+}
+
+void state_destroy(State *state)
+{
+    if (!state) return;
+    if (state->particles) state->backend->destroy(state->particles);
+    // the state lies in its own arena
+    Arena arena = state->arena;
+    arena_destroy(&arena);
+}
+
+bool plan_predict(const Scene *scene, Plan *plan, Error *error)
+{
+    State *state;
+    TRY(state_create(scene, plan, &state, error));
+    bool good = true;
+    double wall = 0;
+    for (int i = 0; i < 12 && good && wall < 2; i++) {
+        if (i == 2) state->wall_time = 0;
+        good = step_advance(scene, plan, state, error);
+        wall += state->wall_time / (i + 1);
+    }
+    if (good && state->step > 2)
+        plan->predicted_slowness = state->wall_time / ((double)(state->step - 2) * plan->time_step);
+    state_destroy(state);
+    return good;
+}

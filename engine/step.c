@@ -1,0 +1,207 @@
+/// One time step, readable from top to bottom in step_once.
+#include "step.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "engine.h"
+#include "health.h"
+#include "piston.h"
+
+static double wall_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/// Incident wave at line nodes: SPH velocities are not asked (a choice that costs nothing).
+static void water_at_nodes(const void *context, double time, int count, const Vec3 *position,
+                           Vec3 *velocity, Vec3 *acceleration, double *elevation)
+{
+    const WaveState *waves = context;
+    for (int i = 0; i < count; i++) {
+        velocity[i] = waves_velocity(waves, position[i], time);
+        acceleration[i] = waves_acceleration(waves, position[i], time);
+        elevation[i] = waves_elevation(waves, position[i].x, position[i].y, time);
+    }
+}
+
+WaterField step_water(const Scene *scene, const State *state)
+{
+    bool waves = scene->waves.kind != WAVES_NONE;
+    WaterField water = {
+        waves ? water_at_nodes : NULL, waves ? &state->waves : NULL, scene->fluid.level,
+        scene->fluid.density,          scene->fluid.gravity,         scene->domain.min.z};
+    return water;
+}
+
+void step_line_end(const State *state, const LineEnd *end, Vec3 *position, Vec3 *velocity)
+{
+    *position = end->position;
+    *velocity = vec3(0, 0, 0);
+    if (end->body < 0) return;
+    *position = body_point(&state->bodies[end->body], end->position);
+    *velocity = body_point_velocity(&state->bodies[end->body], end->position);
+}
+
+static void collect_line_loads(const Scene *scene, State *state)
+{
+    for (int b = 0; b < scene->body_count; b++)
+        state->bodies[b].line_force = state->bodies[b].line_moment = vec3(0, 0, 0);
+    for (int l = 0; l < scene->line_count; l++) {
+        const LineEnd *ends[2] = {&scene->lines[l].anchor, &scene->lines[l].fairlead};
+        const Vec3 pulls[2] = {state->lines[l].anchor_force, state->lines[l].fairlead_force};
+        for (int e = 0; e < 2; e++) {
+            if (ends[e]->body < 0) continue;
+            Body *body = &state->bodies[ends[e]->body];
+            Vec3 arm = vec3_sub(body_point(body, ends[e]->position), body->position);
+            body->line_force = vec3_add(body->line_force, pulls[e]);
+            body->line_moment = vec3_add(body->line_moment, vec3_cross(arm, pulls[e]));
+        }
+    }
+}
+
+static void advance_bodies(const Scene *scene, State *state, double dt)
+{
+    collect_line_loads(scene, state);
+    for (int b = 0; b < scene->body_count; b++) {
+        Body *body = &state->bodies[b];
+        body->fluid_force = state->loads[b].force;
+        body->fluid_moment = state->loads[b].moment;
+        body_advance(body, &scene->bodies[b], scene->fluid.gravity, state->time, dt);
+        state->poses[b].origin = body_point(body, vec3(0, 0, 0));
+        state->poses[b].attitude = body->attitude;
+    }
+}
+
+typedef struct LinePaths {
+    EndPath anchor[SCENE_LINES_MAX], fairlead[SCENE_LINES_MAX];
+} LinePaths;
+
+static void note_line_ends(const Scene *scene, const State *state, int instant, LinePaths *paths)
+{
+    for (int l = 0; l < scene->line_count; l++) {
+        step_line_end(state, &scene->lines[l].anchor, &paths->anchor[l].position[instant],
+                      &paths->anchor[l].velocity[instant]);
+        step_line_end(state, &scene->lines[l].fairlead, &paths->fairlead[l].position[instant],
+                      &paths->fairlead[l].velocity[instant]);
+    }
+}
+
+static bool advance_lines(const Scene *scene, State *state, double dt, const LinePaths *paths,
+                          Error *error)
+{
+    WaterField water = step_water(scene, state);
+    for (int l = 0; l < scene->line_count; l++)
+        TRY(line_advance(&state->lines[l], &water, state->time, dt, &paths->anchor[l],
+                         &paths->fairlead[l], error));
+    return true;
+}
+
+static void move_ring(const void *context, double time, int count, const Vec3 *mean, Vec3 *place)
+{
+    for (int i = 0; i < count; i++)
+        place[i] = vec3_add(mean[i], waves_displacement(context, mean[i], time));
+}
+
+static void zone_velocity(const void *context, double time, int count, const float *x,
+                          const float *y, const float *z, float *u, float *v, float *w)
+{
+    waves_zone_batch(context, time, count, x, y, z, u, v, w);
+}
+
+static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State *state)
+{
+    const Domain *d = &scene->domain;
+    RelaxationZone zone;
+    memset(&zone, 0, sizeof zone);
+    bool basin = plan->effects[EFFECT_ZONE].active, beach = plan->effects[EFFECT_BEACH].active;
+    if (!basin && !beach) return zone;
+    zone.width = plan->zone_width;
+    zone.time_scale = 0.1 * state->waves.asked.period;
+    zone.side_min[0] = basin ? d->min.x : -1e30;
+    zone.side_max[0] = d->max.x;
+    zone.side_min[1] = basin && d->dimensions == 3 ? d->min.y : -1e30;
+    zone.side_max[1] = basin && d->dimensions == 3 ? d->max.y : 1e30;
+    zone.target = basin ? zone_velocity : NULL;
+    return zone;
+}
+
+static bool step_once(const Scene *scene, const Plan *plan, State *state, double dt,
+                      ParticleSums *sums, Error *error)
+{
+    LinePaths paths;
+    for (int b = 0; b < scene->body_count; b++)
+        state->centres[b] = state->bodies[b].position;
+    TRY(state->backend->forces(state->particles, state->centres, state->loads, error));
+
+    double lap = wall_clock();
+    note_line_ends(scene, state, 0, &paths);
+    advance_bodies(scene, state, dt);
+    note_line_ends(scene, state, 1, &paths);
+    state->body_seconds += wall_clock() - lap;
+    lap = wall_clock();
+    TRY(advance_lines(scene, state, dt, &paths, error));
+    state->line_seconds += wall_clock() - lap;
+
+    Advance advance;
+    memset(&advance, 0, sizeof advance);
+    advance.time = state->time;
+    advance.dt = dt;
+    advance.poses = state->poses;
+    advance.waves = &state->waves;
+    advance.ring = plan->effects[EFFECT_RING].active ? move_ring : NULL;
+    advance.piston = plan->effects[EFFECT_PISTON].active ? piston_move : NULL;
+    advance.zone = zone_of(scene, plan, state);
+    state->backend->advance(state->particles, &advance, sums);
+
+    state->time += dt;
+    state->step++;
+    if (scene->waves.kind != WAVES_NONE) waves_update(&state->waves, scene, state->time);
+    return true;
+}
+
+/// Spread the backend's clocks over the effects that asked for the work.
+static void share_clocks(State *state)
+{
+    const double *c = state->backend->clocks(state->particles);
+    double *e = state->effect_seconds;
+    e[EFFECT_VISCOSITY] = c[CLOCK_MOMENTUM] * state->pair_cost[0];
+    e[EFFECT_DIFFUSION] = c[CLOCK_DENSITY] * state->pair_cost[1];
+    e[EFFECT_WALLS] = c[CLOCK_EXTRAPOLATE];
+    e[EFFECT_RING] = e[EFFECT_PISTON] = 0;
+    e[EFFECT_RING] = c[CLOCK_DUMMIES];
+    e[EFFECT_ZONE] = c[CLOCK_ZONE];
+    e[EFFECT_BODIES] = c[CLOCK_LOADS] + state->body_seconds;
+    e[EFFECT_LINES] = state->line_seconds;
+    e[EFFECT_GAUGES] = state->probe_seconds;
+    state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] + c[CLOCK_MOMENTUM] +
+                          c[CLOCK_DENSITY] - e[EFFECT_VISCOSITY] - e[EFFECT_DIFFUSION];
+}
+
+bool step_advance(const Scene *scene, const Plan *plan, State *state, Error *error)
+{
+    double begin = wall_clock();
+    health_checkpoint(scene, state);
+    ParticleSums sums;
+    double dt = state->time_step;
+    bool good = step_once(scene, plan, state, dt, &sums, error);
+    if (!good && error->code == ERROR_SYSTEM) return false;
+    good = health_judge(scene, plan, state, good ? &sums : NULL, error);
+    state->smallest_step = mind(state->smallest_step, dt);
+    state->largest_step = maxd(state->largest_step, dt);
+    share_clocks(state);
+    state->wall_time += wall_clock() - begin;
+    return good;
+}
+
+bool state_command(const Scene *scene, State *state, const Command *command, Error *error)
+{
+    WaveTarget target;
+    TRY(command_check(scene, command, &state->waves.asked, &target, error));
+    waves_command(&state->waves, scene, &target, state->time);
+    return true;
+}
