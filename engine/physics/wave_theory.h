@@ -162,7 +162,7 @@ FN float wave_exp2(float x)
     return p * power.value;
 }
 
-/// Sine and cosine of `turns` whole circles, |turns| <= 1/2, absolute error below 6e-7: Taylor's
+/// Sine and cosine of `turns` whole circles, |turns| <= 1/2, absolute error below 7e-7: Taylor's
 /// series of the half angle, then doubled, so that no quadrant has to be chosen.
 FN void wave_sine_cosine(float turns, float *sine, float *cosine)
 {

@@ -1,5 +1,6 @@
 /// Rigid bodies: free motion, constraints, springs, prescribed paths, holding.
 #include "body.h"
+#include "physics/rigid.h"
 #include "test.h"
 
 static const double DEGREE = PI / 180;
@@ -57,6 +58,27 @@ static Vec3 world_momentum(const Body *body)
 static double rotation_energy(const Body *body)
 {
     return 0.5 * vec3_dot(body->angular_velocity, world_momentum(body));
+}
+
+TEST(axes_of_roll_pitch_yaw_are_derivatives_of_the_attitude_and_duals_pick_them_out)
+{
+    const double angle[3] = {0.7, -0.5, 2.1}, h = 1e-6;
+    Vec3 axes[3], duals[3];
+    rigid_axes(vec3(angle[0], angle[1], angle[2]), axes);
+    rigid_duals(vec3(angle[0], angle[1], angle[2]), duals);
+    for (int i = 0; i < 3; i++) {
+        double more[3] = {angle[0], angle[1], angle[2]}, less[3] = {angle[0], angle[1], angle[2]};
+        more[i] += h;
+        less[i] -= h;
+        Quat turn = quat_mul(quat_from_euler(more[0], more[1], more[2]),
+                             quat_conjugate(quat_from_euler(less[0], less[1], less[2])));
+        Vec3 axis = vec3_scale(vec3(turn.x, turn.y, turn.z), 1 / h);
+        CHECK_NEAR(vec3_norm(vec3_sub(axis, axes[i])), 0, 1e-9);
+        for (int j = 0; j < 3; j++)
+            CHECK_NEAR(vec3_dot(duals[i], axes[j]), i == j, 1e-12);
+    }
+    rigid_duals(vec3(0, PI / 2, 0), duals); // singular: bounded
+    CHECK(vec3_norm(duals[0]) < 11 && vec3_norm(duals[2]) < 11);
 }
 
 TEST(a_free_spinning_body_keeps_momentum_and_energy_over_1e5_steps)
