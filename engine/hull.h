@@ -20,19 +20,20 @@ typedef struct MeshProperties {
     double volume;     ///< [m^3]
     double area;       ///< [m^2]
     Vec3 centroid;     ///< [m]
-    double inertia[6]; ///< xx yy zz xy xz yz about the centroid, unit density [m^5]
+    double inertia[6]; ///< xx yy zz xy xz yz of the tensor about the centroid (xy = -integral of
+                       ///< x y), unit density [m^5]
     Vec3 min, max;     ///< bounding box [m]
 } MeshProperties;
 
 /// What still water does to a body in a given pose.
 typedef struct Hydrostatics {
-    double draft;                                   ///< lowest point below still water [m]
-    double mass;                                    ///< of the body [kg]
-    double displacement;                            ///< displaced volume [m^3]
-    Vec3 centre_of_buoyancy;                        ///< geometry axes [m]
-    double waterplane_area;                         ///< [m^2]
-    double gm_transverse;                           ///< metacentric height [m]
-    double gm_longitudinal;                         ///< [m]
+    double draft;            ///< lowest point below still water [m], < 0 above it
+    double mass;             ///< of the body [kg]
+    double displacement;     ///< displaced volume [m^3]
+    Vec3 centre_of_buoyancy; ///< geometry axes [m]; NANs when dry
+    double waterplane_area;  ///< [m^2]
+    double gm_transverse;    ///< metacentric height [m]
+    double gm_longitudinal;  ///< [m]
     double heave_period, roll_period, pitch_period; ///< [s], without added mass; NAN if unstable
     double trim_moment; ///< about y through the centre of gravity at this pose [N m], bow-down > 0
     double heel_moment; ///< about x [N m]
