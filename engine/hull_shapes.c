@@ -145,7 +145,8 @@ static bool segments_cross(const double a[2], const double b[2], const double c[
 /// Cut a simple counter-clockwise polygon into count - 2 triangles by its ears.
 static bool cut_ears(const double (*p)[2], int count, int (*triangles)[3])
 {
-    int ring[SCENE_POLYGON_MAX], left = count, made = 0;
+    int ring[SCENE_POLYGON_MAX] = {0}, left = count, made = 0;
+    if (count < 3) return false;
     for (int k = 0; k < count; k++)
         ring[k] = k;
     while (left > 3) {
@@ -225,7 +226,7 @@ static bool polygon_create(const BodyScene *body, double breadth, const char *wh
                                  "is needed",
                                  where, section[i][1], section[i][0]);
     int triangles[SCENE_POLYGON_MAX][3];
-    if (count < 3 || !cut_ears((const double(*)[2])section, count, triangles))
+    if (!cut_ears((const double(*)[2])section, count, triangles))
         return error_set(error, ERROR_INPUT,
                          "%s.polygon_m: encloses no area or touches itself; a simple polygon is "
                          "needed",
