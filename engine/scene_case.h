@@ -1,0 +1,57 @@
+/// Within the reader of case files: what a file says while it is being read, the tables of its keys
+/// and the checks between values. Outside of scene_*.c (and its tests) nobody includes this.
+#ifndef FAIRLEAD_SCENE_CASE_H
+#define FAIRLEAD_SCENE_CASE_H
+
+#include "scene.h"
+#include "scene_table.h"
+
+/// The scene with what only the file knows.
+typedef struct CaseFile {
+    Scene scene;
+    char schema[256];       ///< "$schema", for editors
+    double basin_depth;     ///< [m]; NAN = min_m and max_m are given instead
+    double basin_length;    ///< [m]
+    double basin_breadth;   ///< [m]
+    double basin_freeboard; ///< [m]; NAN = BASIN_FREEBOARD_RATIO of the largest wave height
+} CaseFile;
+
+/// Keys of the whole file, of a body and of a line.
+extern const JsonTable CASE_TABLE, BODY_TABLE, LINE_TABLE;
+
+/// `body` by name → index into scene.bodies (bodies are read before lines and probes).
+bool case_read_body(const JsonReader *reader, const JsonField *field, const JsonValue *value,
+                    const char *where, void *target);
+
+/// Rules between the values of one body or one line, and what follows from them (2-D breadth, path
+/// of the mesh, moments of inertia given as three).
+bool case_finish_body(const JsonReader *reader, const JsonValue *object, const char *where,
+                      void *target);
+bool case_finish_line(const JsonReader *reader, const JsonValue *object, const char *where,
+                      void *target);
+
+/// Values that follow from others: the basin's corners, limits of live changes, ramp.
+bool case_resolve(const JsonReader *reader, CaseFile *draft);
+
+/// Rules between values of different objects; each names the JSON path it refuses.
+bool case_check(const JsonReader *reader, const Scene *scene);
+bool case_check_bodies(const JsonReader *reader, const Scene *scene);
+bool case_check_lines(const JsonReader *reader, const Scene *scene);
+bool case_check_probes(const JsonReader *reader, const Scene *scene);
+
+/// Particles of this scene, walls included; an estimate from volumes (the plan counts).
+double case_particle_estimate(const Scene *scene, double spacing);
+/// Refuse a scene whose particles would not fit into `memory` [byte], naming the smallest spacing
+/// that does.
+bool case_check_memory(const JsonReader *reader, const Scene *scene, double memory);
+/// What a simulation may use of this machine: three quarters of it [byte].
+double case_memory_available(void);
+
+/// Apply "path.to.key=value" to the tree before it is read.
+bool case_override(JsonValue *root, const char *assignment, Error *error);
+
+/// Largest wave height that does not break [m]: 0.142 L tanh(k d).
+/// Source: Miche (1944), Annales des Ponts et Chaussées 114.
+double case_breaking_height(const Scene *scene, double period);
+
+#endif

@@ -1,0 +1,100 @@
+/// Bodies, lines and probes against the domain and against each other.
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene_case.h"
+
+/// "bodies[2].name" may not repeat an earlier one: names head the columns of the series.
+static bool check_name(const JsonReader *reader, const char *list, const char *first,
+                       size_t item_size, int index)
+{
+    const char *name = first + (size_t)index * item_size;
+    for (int i = 0; i < index; i++)
+        if (strcmp(name, first + (size_t)i * item_size) == 0) {
+            char at[JSON_PATH_SIZE];
+            snprintf(at, sizeof at, "%s[%d].name", list, index);
+            return table_refuse(reader, at, NULL,
+                                "\"%s\" is the name of %s[%d] too: must differ from all others",
+                                name, list, i);
+        }
+    return true;
+}
+
+/// A coordinate within the domain.
+static bool check_inside(const JsonReader *reader, const char *where, const char *axis,
+                         double value, double min, double max)
+{
+    double slack = 1e-9 * (1 + fabs(min) + fabs(max));
+    if (value >= min - slack && value <= max + slack) return true;
+    return table_refuse_number(reader, where, value,
+                               "its %s must be >= %.9g and <= %.9g m (the domain)", axis, min, max);
+}
+
+bool case_check_bodies(const JsonReader *reader, const Scene *scene)
+{
+    const Domain *domain = &scene->domain;
+    double depth = scene->fluid.level - domain->min.z;
+    char at[JSON_PATH_SIZE];
+    for (int i = 0; i < scene->body_count; i++) {
+        const BodyScene *body = &scene->bodies[i];
+        TRY(check_name(reader, "bodies", scene->bodies[0].name, sizeof *scene->bodies, i));
+        snprintf(at, sizeof at, "bodies[%d].position_m", i);
+        TRY(check_inside(reader, at, "x", body->position.x, domain->min.x, domain->max.x));
+        if (domain->dimensions == 3)
+            TRY(check_inside(reader, at, "y", body->position.y, domain->min.y, domain->max.y));
+        if (body->position.z < domain->min.z)
+            return table_refuse_number(reader, at, body->position.z,
+                                       "its z must be >= %.9g m (the bed)", domain->min.z);
+        snprintf(at, sizeof at, "bodies[%d].draft_m", i);
+        if (isnan(body->position.z) && body->draft > depth)
+            return table_refuse_number(reader, at, body->draft,
+                                       "must be > 0 and <= %.9g m (the water's depth)", depth);
+    }
+    return true;
+}
+
+bool case_check_lines(const JsonReader *reader, const Scene *scene)
+{
+    double bed = scene->domain.min.z;
+    char at[JSON_PATH_SIZE];
+    for (int i = 0; i < scene->line_count; i++) {
+        const LineScene *line = &scene->lines[i];
+        TRY(check_name(reader, "lines", scene->lines[0].name, sizeof *scene->lines, i));
+        // an end on earth may lie beyond the domain (lines need no particles), but not in the bed
+        for (int end = 0; end < 2; end++) {
+            const LineEnd *e = end ? &line->fairlead : &line->anchor;
+            snprintf(at, sizeof at, "lines[%d].%s.position_m", i, end ? "fairlead" : "anchor");
+            if (e->body < 0 && e->position.z < bed - 1e-9 * (1 + fabs(bed)))
+                return table_refuse_number(reader, at, e->position.z,
+                                           "its z must be >= %.9g m (the bed)", bed);
+        }
+    }
+    return true;
+}
+
+bool case_check_probes(const JsonReader *reader, const Scene *scene)
+{
+    const Domain *domain = &scene->domain;
+    char at[JSON_PATH_SIZE];
+    for (int i = 0; i < scene->gauge_count; i++) {
+        const GaugeScene *gauge = &scene->gauges[i];
+        TRY(check_name(reader, "probes.gauges", scene->gauges[0].name, sizeof *gauge, i));
+        snprintf(at, sizeof at, "probes.gauges[%d].x_m", i);
+        TRY(check_inside(reader, at, "x", gauge->x, domain->min.x, domain->max.x));
+        snprintf(at, sizeof at, "probes.gauges[%d].y_m", i);
+        TRY(check_inside(reader, at, "y", gauge->y, domain->min.y, domain->max.y));
+    }
+    for (int i = 0; i < scene->pressure_probe_count; i++) {
+        const PressureProbeScene *probe = &scene->pressure_probes[i];
+        TRY(check_name(reader, "probes.pressure", scene->pressure_probes[0].name, sizeof *probe,
+                       i));
+        if (probe->body >= 0) continue;
+        snprintf(at, sizeof at, "probes.pressure[%d].position_m", i);
+        TRY(check_inside(reader, at, "x", probe->position.x, domain->min.x, domain->max.x));
+        if (domain->dimensions == 3)
+            TRY(check_inside(reader, at, "y", probe->position.y, domain->min.y, domain->max.y));
+        TRY(check_inside(reader, at, "z", probe->position.z, domain->min.z, domain->max.z));
+    }
+    return true;
+}

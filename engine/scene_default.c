@@ -1,0 +1,85 @@
+#include <math.h>
+#include <string.h>
+
+#include "scene.h"
+
+Scene scene_default(void)
+{
+    Scene scene;
+    memset(&scene, 0, sizeof scene);
+    Vec3 none = vec3(NAN, NAN, NAN);
+
+    scene.domain.kind = DOMAIN_TANK;
+    scene.domain.dimensions = 3;
+    scene.domain.min = scene.domain.max = none;
+
+    Fluid *fluid = &scene.fluid;
+    fluid->spacing = NAN;
+    fluid->smoothing_ratio = 2.0;    // waves lose 1.3 % of height per period (docs/physics.md)
+    fluid->density = 1000.0;         // fresh water at 4 C, as in model basins
+    fluid->alpha = 0.002;            // docs/physics.md: larger values damp waves
+    fluid->delta = 0.1;              // Fourtakas et al. (2019), 10.1016/j.compfluid.2019.06.009
+    fluid->sound_speed = 0;          // by the rule
+    fluid->sound_speed_ratio = 10.0; // density within 1 %: Monaghan (1994), 10.1006/jcph.1994.1034
+    fluid->gravity = 9.81;
+    fluid->level = 0;
+
+    Waves *waves = &scene.waves;
+    waves->kind = WAVES_NONE;
+    waves->initial.height = waves->initial.period = NAN;
+    waves->initial.heading = 0;
+    waves->start = WAVE_START_RAMP;
+    waves->ramp_time = NAN;     // two periods, filled in after reading
+    waves->blend_periods = 1.5; // docs/physics.md, basin, live change
+    waves->zone_width = 0;      // 0.75 of the longest wave that may be asked for
+    waves->height_limits.min = waves->height_limits.max = NAN;
+    waves->period_limits = waves->heading_limits = waves->height_limits;
+
+    scene.outputs.series_interval = 0.02; // 50 a second: 60 samples in the shortest wave of a flume
+    scene.camera.target = none;
+    scene.camera.distance = NAN;
+    scene.camera.azimuth = -60 * PI / 180;
+    scene.camera.elevation = 20 * PI / 180;
+    return scene;
+}
+
+BodyScene body_scene_default(void)
+{
+    BodyScene body;
+    memset(&body, 0, sizeof body);
+    Vec3 none = vec3(NAN, NAN, NAN);
+    body.shape = BODY_BOX;
+    body.size = none;
+    body.radius = body.length = body.draft_design = body.breadth = NAN;
+    body.axis = 1; // across: the section of a cylinder lies in the x-z plane
+    body.scale = 1;
+    body.position = none;
+    body.mass = body.draft = NAN;
+    body.centre_of_gravity = body.radii_of_gyration = none;
+    for (int i = 0; i < 6; i++) {
+        body.inertia[i] = NAN;
+        body.freedoms[i].kind = FREEDOM_FREE;
+    }
+    body.colour[0] = 0.78, body.colour[1] = 0.29, body.colour[2] = 0.18; // red lead
+    return body;
+}
+
+LineScene line_scene_default(void)
+{
+    LineScene line;
+    memset(&line, 0, sizeof line);
+    line.anchor.body = line.fairlead.body = -1;
+    line.anchor.position = line.fairlead.position = vec3(NAN, NAN, NAN);
+    line.length = line.axial_stiffness = line.mass_per_length = line.diameter = NAN;
+    // coefficients, internal damping and bed of MoorDyn's sample input (Hall 2015, users guide)
+    line.drag_normal = 1.6;
+    line.drag_tangential = 0.05;
+    line.added_normal = 1.0;
+    line.added_tangential = 0.0;
+    line.damping_ratio = 0.8;
+    line.segments = 20;
+    line.bed_stiffness = 3.0e6;
+    line.bed_damping = 3.0e5;
+    line.bed_friction = 0;
+    return line;
+}

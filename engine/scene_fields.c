@@ -1,0 +1,132 @@
+/// The keys of a case file, those of bodies and lines apart: one row per key. cases/schema.json
+/// tells editors the same; tests/unit/test_scene_schema.c holds the two together.
+#include "scene_case.h"
+
+// clang-format off
+#define IN_CASE(member) .offset = offsetof(CaseFile, member)
+#define COUNT(fields) (int)(sizeof(fields) / sizeof *(fields))
+// Ranges are wide enough for full scale and narrow enough to catch a slip of units.
+#define COORDINATE .min = -10000, .max = 10000, .unit = "m"
+#define LENGTH_UP_TO(max_) .max = max_, .above_min = true, .unit = "m"
+#define DEGREES(min_, max_) .min = min_, .max = max_, .unit = "deg", .to_si = PI / 180
+
+static const JsonField DOMAIN_FIELDS[] = {
+    {"kind", FIELD_CHOICE, true, IN_CASE(scene.domain.kind), .choices = {"tank", "flume", "basin"}},
+    {"dimensions", FIELD_INTEGER, IN_CASE(scene.domain.dimensions), .min = 2, .max = 3},
+    {"min_m", FIELD_POINT, IN_CASE(scene.domain.min), COORDINATE},
+    {"max_m", FIELD_POINT, IN_CASE(scene.domain.max), COORDINATE},
+    {"length_m", FIELD_NUMBER, IN_CASE(basin_length), LENGTH_UP_TO(20000)},
+    {"breadth_m", FIELD_NUMBER, IN_CASE(basin_breadth), LENGTH_UP_TO(20000)},
+    {"depth_m", FIELD_NUMBER, IN_CASE(basin_depth), LENGTH_UP_TO(10000)},
+    {"freeboard_m", FIELD_NUMBER, IN_CASE(basin_freeboard), LENGTH_UP_TO(1000)},
+};
+static const JsonTable DOMAIN_TABLE = {DOMAIN_FIELDS, COUNT(DOMAIN_FIELDS), NULL};
+
+static const JsonField BLOCK_FIELDS[] = {
+    {"min_m", FIELD_POINT, true, .offset = offsetof(FluidBlock, min), COORDINATE},
+    {"max_m", FIELD_POINT, true, .offset = offsetof(FluidBlock, max), COORDINATE},
+};
+static const JsonTable BLOCK_TABLE = {BLOCK_FIELDS, COUNT(BLOCK_FIELDS), NULL};
+
+static const JsonField FLUID_FIELDS[] = {
+    {"spacing_m", FIELD_NUMBER, true, IN_CASE(scene.fluid.spacing), LENGTH_UP_TO(10)},
+    {"smoothing_ratio", FIELD_NUMBER, IN_CASE(scene.fluid.smoothing_ratio), .min = 1.2, .max = 3},
+    {"density_kgm3", FIELD_NUMBER, IN_CASE(scene.fluid.density), .min = 100, .max = 20000, .unit = "kg/m3"},
+    {"alpha", FIELD_NUMBER, IN_CASE(scene.fluid.alpha), .max = 1},
+    {"delta", FIELD_NUMBER, IN_CASE(scene.fluid.delta), .max = 1},
+    {"sound_speed_ms", FIELD_NUMBER, IN_CASE(scene.fluid.sound_speed), .max = 5000, .unit = "m/s"},
+    {"sound_speed_ratio", FIELD_NUMBER, IN_CASE(scene.fluid.sound_speed_ratio), .min = 7, .max = 20},
+    {"gravity_ms2", FIELD_NUMBER, IN_CASE(scene.fluid.gravity), .min = 0.1, .max = 100, .unit = "m/s2"},
+    {"level_m", FIELD_NUMBER, IN_CASE(scene.fluid.level), COORDINATE},
+    {"blocks", FIELD_LIST, IN_CASE(scene.fluid.blocks), .table = &BLOCK_TABLE,
+     .item_size = sizeof(FluidBlock), .counter_offset = offsetof(CaseFile, scene.fluid.block_count),
+     .count_max = SCENE_FLUID_BLOCKS_MAX},
+};
+static const JsonTable FLUID_TABLE = {FLUID_FIELDS, COUNT(FLUID_FIELDS), NULL};
+
+#define WAVE_HEIGHT .max = 50, .unit = "m"
+#define WAVE_PERIOD .min = 0.1, .max = 60, .unit = "s"
+
+static const JsonField LIMIT_FIELDS[] = {
+    {"height_m", FIELD_RANGE, IN_CASE(scene.waves.height_limits), WAVE_HEIGHT},
+    {"period_s", FIELD_RANGE, IN_CASE(scene.waves.period_limits), WAVE_PERIOD},
+    {"heading_deg", FIELD_RANGE, IN_CASE(scene.waves.heading_limits), DEGREES(-180, 360)},
+};
+static const JsonTable LIMIT_TABLE = {LIMIT_FIELDS, COUNT(LIMIT_FIELDS), NULL};
+
+static const JsonField WAVE_FIELDS[] = {
+    {"kind", FIELD_CHOICE, true, IN_CASE(scene.waves.kind), .choices = {"none", "regular"}},
+    {"height_m", FIELD_NUMBER, IN_CASE(scene.waves.initial.height), WAVE_HEIGHT},
+    {"period_s", FIELD_NUMBER, IN_CASE(scene.waves.initial.period), WAVE_PERIOD},
+    {"heading_deg", FIELD_NUMBER, IN_CASE(scene.waves.initial.heading), DEGREES(-180, 360)},
+    {"start", FIELD_CHOICE, IN_CASE(scene.waves.start), .choices = {"ramp", "hot"}},
+    {"ramp_s", FIELD_NUMBER, IN_CASE(scene.waves.ramp_time), .max = 1000, .unit = "s"},
+    {"blend_periods", FIELD_NUMBER, IN_CASE(scene.waves.blend_periods), .min = 0.5, .max = 10},
+    {"zone_width_m", FIELD_NUMBER, IN_CASE(scene.waves.zone_width), .max = 1000, .unit = "m"},
+    {"limits", FIELD_OBJECT, .table = &LIMIT_TABLE},
+};
+static const JsonTable WAVE_TABLE = {WAVE_FIELDS, COUNT(WAVE_FIELDS), NULL};
+
+static const JsonField GAUGE_FIELDS[] = {
+    {"name", FIELD_NAME, true, .offset = offsetof(GaugeScene, name), .count_max = SCENE_NAME_SIZE},
+    {"x_m", FIELD_NUMBER, true, .offset = offsetof(GaugeScene, x), COORDINATE},
+    {"y_m", FIELD_NUMBER, .offset = offsetof(GaugeScene, y), COORDINATE},
+};
+static const JsonTable GAUGE_TABLE = {GAUGE_FIELDS, COUNT(GAUGE_FIELDS), NULL};
+
+static const JsonField PRESSURE_FIELDS[] = {
+    {"name", FIELD_NAME, true, .offset = offsetof(PressureProbeScene, name), .count_max = SCENE_NAME_SIZE},
+    {"body", FIELD_CUSTOM, .offset = offsetof(PressureProbeScene, body), .read = case_read_body},
+    {"position_m", FIELD_POINT, true, .offset = offsetof(PressureProbeScene, position), COORDINATE},
+};
+static const JsonTable PRESSURE_TABLE = {PRESSURE_FIELDS, COUNT(PRESSURE_FIELDS), NULL};
+
+static void pressure_default(void *item) { ((PressureProbeScene *)item)->body = -1; }
+
+static const JsonField PROBE_FIELDS[] = {
+    {"gauges", FIELD_LIST, IN_CASE(scene.gauges), .table = &GAUGE_TABLE,
+     .item_size = sizeof(GaugeScene), .counter_offset = offsetof(CaseFile, scene.gauge_count),
+     .count_max = SCENE_GAUGES_MAX},
+    {"pressure", FIELD_LIST, IN_CASE(scene.pressure_probes), .table = &PRESSURE_TABLE,
+     .item_size = sizeof(PressureProbeScene),
+     .counter_offset = offsetof(CaseFile, scene.pressure_probe_count),
+     .count_max = SCENE_PRESSURE_PROBES_MAX, .item_default = pressure_default},
+};
+static const JsonTable PROBE_TABLE = {PROBE_FIELDS, COUNT(PROBE_FIELDS), NULL};
+
+static const JsonField OUTPUT_FIELDS[] = {
+    {"series_interval_s", FIELD_NUMBER, IN_CASE(scene.outputs.series_interval), .min = 0.0001,
+     .max = 100, .unit = "s"},
+};
+static const JsonTable OUTPUT_TABLE = {OUTPUT_FIELDS, COUNT(OUTPUT_FIELDS), NULL};
+
+static const JsonField CAMERA_FIELDS[] = {
+    {"target_m", FIELD_POINT, IN_CASE(scene.camera.target), COORDINATE},
+    {"distance_m", FIELD_NUMBER, IN_CASE(scene.camera.distance), LENGTH_UP_TO(100000)},
+    {"azimuth_deg", FIELD_NUMBER, IN_CASE(scene.camera.azimuth), DEGREES(-360, 360)},
+    {"elevation_deg", FIELD_NUMBER, IN_CASE(scene.camera.elevation), DEGREES(-89, 89)},
+};
+static const JsonTable CAMERA_TABLE = {CAMERA_FIELDS, COUNT(CAMERA_FIELDS), NULL};
+
+static void body_default(void *item) { *(BodyScene *)item = body_scene_default(); }
+static void line_default(void *item) { *(LineScene *)item = line_scene_default(); }
+
+// In the order in which they are read: points need the dimensions, lines and probes the bodies.
+static const JsonField CASE_FIELDS[] = {
+    {"$schema", FIELD_TEXT, IN_CASE(schema), .count_max = sizeof((CaseFile *)0)->schema},
+    {"title", FIELD_TEXT, IN_CASE(scene.title), .count_max = sizeof((CaseFile *)0)->scene.title},
+    {"domain", FIELD_OBJECT, true, .table = &DOMAIN_TABLE},
+    {"fluid", FIELD_OBJECT, true, .table = &FLUID_TABLE},
+    {"waves", FIELD_OBJECT, .table = &WAVE_TABLE},
+    {"bodies", FIELD_LIST, IN_CASE(scene.bodies), .table = &BODY_TABLE,
+     .item_size = sizeof(BodyScene), .counter_offset = offsetof(CaseFile, scene.body_count),
+     .count_max = SCENE_BODIES_MAX, .item_default = body_default},
+    {"lines", FIELD_LIST, IN_CASE(scene.lines), .table = &LINE_TABLE,
+     .item_size = sizeof(LineScene), .counter_offset = offsetof(CaseFile, scene.line_count),
+     .count_max = SCENE_LINES_MAX, .item_default = line_default},
+    {"probes", FIELD_OBJECT, .table = &PROBE_TABLE},
+    {"outputs", FIELD_OBJECT, .table = &OUTPUT_TABLE},
+    {"camera", FIELD_OBJECT, .table = &CAMERA_TABLE},
+};
+const JsonTable CASE_TABLE = {CASE_FIELDS, COUNT(CASE_FIELDS), NULL};
+// clang-format on

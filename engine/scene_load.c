@@ -1,0 +1,159 @@
+/// Case file → Scene, in the order in which this file reads from below: the tree, overrides, the
+/// tables (scene_fields*.c), values that follow from others, the checks (scene_check.c).
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene_case.h"
+
+/// A ring must rise above the largest wave (docs/physics.md: >= H; without it particles leak).
+static const double BASIN_FREEBOARD_RATIO = 1.3;
+static const double RAMP_PERIODS = 2; ///< (chosen) from rest to the full wave
+
+/// Limits that the file leaves out: lower waves and any heading, no other period (the zone is sized
+/// for the longest period that may be asked for).
+static void resolve_limits(const Domain *domain, Waves *waves)
+{
+    if (isnan(waves->height_limits.max)) {
+        waves->height_limits.min = 0;
+        waves->height_limits.max = waves->initial.height;
+    }
+    if (isnan(waves->period_limits.max))
+        waves->period_limits.min = waves->period_limits.max = waves->initial.period;
+    if (isnan(waves->heading_limits.max)) {
+        bool negative = waves->initial.heading < 0;
+        waves->heading_limits.min = negative ? -PI : 0;
+        waves->heading_limits.max = negative ? PI : 2 * PI;
+        if (domain->kind == DOMAIN_FLUME) waves->heading_limits.min = waves->heading_limits.max = 0;
+    }
+    if (isnan(waves->ramp_time)) waves->ramp_time = RAMP_PERIODS * waves->initial.period;
+}
+
+static bool resolve_waves(const JsonReader *reader, CaseFile *draft)
+{
+    Waves *waves = &draft->scene.waves;
+    if (waves->kind == WAVES_NONE) return true;
+    if (isnan(waves->initial.height))
+        return table_refuse(reader, "waves.height_m", NULL,
+                            "is missing: must be >= 0 and <= 50 m for regular waves");
+    if (isnan(waves->initial.period))
+        return table_refuse(reader, "waves.period_s", NULL,
+                            "is missing: must be >= 0.1 and <= 60 s for regular waves");
+    resolve_limits(&draft->scene.domain, waves);
+    return true;
+}
+
+/// A basin by its sizes: centred on the origin, its ring as high as the largest wave needs.
+static bool resolve_basin(const JsonReader *reader, CaseFile *draft)
+{
+    Scene *scene = &draft->scene;
+    Domain *domain = &scene->domain;
+    bool plane = domain->dimensions == 2;
+    if (domain->kind != DOMAIN_BASIN)
+        return table_refuse(reader, "domain.length_m", NULL,
+                            "length_m, breadth_m, depth_m and freeboard_m are for a basin: a tank "
+                            "or flume must be given by min_m and max_m");
+    if (!isnan(domain->min.x) || !isnan(domain->max.x))
+        return table_refuse(reader, "domain.min_m", NULL,
+                            "min_m and max_m must not be given together with length_m, depth_m …");
+    if (isnan(draft->basin_length) || isnan(draft->basin_depth) ||
+        (isnan(draft->basin_breadth) && !plane))
+        return table_refuse(reader, "domain", NULL,
+                            "a basin must have length_m, depth_m%s > 0 (or min_m and max_m)",
+                            plane ? "" : " and breadth_m");
+    const Waves *waves = &scene->waves;
+    double highest =
+        isnan(waves->height_limits.max) ? waves->initial.height : waves->height_limits.max;
+    double freeboard =
+        isnan(draft->basin_freeboard) ? BASIN_FREEBOARD_RATIO * highest : draft->basin_freeboard;
+    if (!(freeboard > 0))
+        return table_refuse(reader, "domain.freeboard_m", NULL,
+                            "is missing: must be > 0 and <= 1000 m where no wave height gives it");
+    domain->max = vec3(draft->basin_length / 2, plane ? 0 : draft->basin_breadth / 2,
+                       scene->fluid.level + freeboard);
+    domain->min = vec3(-domain->max.x, -domain->max.y, scene->fluid.level - draft->basin_depth);
+    return true;
+}
+
+static bool resolve_domain(const JsonReader *reader, CaseFile *draft)
+{
+    Domain *domain = &draft->scene.domain;
+    Fluid *fluid = &draft->scene.fluid;
+    if (!isnan(draft->basin_length) || !isnan(draft->basin_breadth) || !isnan(draft->basin_depth) ||
+        !isnan(draft->basin_freeboard)) {
+        TRY(resolve_basin(reader, draft));
+    } else {
+        const char *missing = isnan(domain->min.x)   ? "domain.min_m"
+                              : isnan(domain->max.x) ? "domain.max_m"
+                                                     : NULL;
+        if (missing)
+            return table_refuse(reader, missing, NULL,
+                                "is missing: must be a list of 3 numbers >= -10000 and <= 10000 m");
+    }
+    if (domain->dimensions == 2) { // a slice 1 m thick, for pictures and loads per metre
+        domain->min.y = -0.5, domain->max.y = 0.5;
+        for (int i = 0; i < fluid->block_count; i++)
+            fluid->blocks[i].min.y = -0.5, fluid->blocks[i].max.y = 0.5;
+    }
+    return true;
+}
+
+bool case_resolve(const JsonReader *reader, CaseFile *draft)
+{
+    TRY(resolve_waves(reader, draft));
+    TRY(resolve_domain(reader, draft));
+    Waves *waves = &draft->scene.waves;
+    if (waves->kind == WAVES_NONE) { // a case may keep its sea and switch it off
+        memset(&waves->initial, 0, sizeof waves->initial);
+        waves->ramp_time = 0;
+        waves->height_limits = waves->period_limits = waves->heading_limits = (Range){0, 0};
+    }
+    return true;
+}
+
+/// "cases/moored_ship.json" → "moored_ship"; what is neither letter nor digit nor .-_ becomes _.
+static void name_from_path(const char *path, char name[SCENE_NAME_SIZE])
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(name, SCENE_NAME_SIZE, "%.*s", SCENE_NAME_SIZE - 1, slash ? slash + 1 : path);
+    char *dot = strrchr(name, '.');
+    if (dot && dot != name) *dot = 0;
+    for (char *c = name; *c; c++)
+        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-", *c))
+            *c = '_';
+}
+
+static bool read_tree(const JsonReader *reader, const JsonValue *root, CaseFile *draft)
+{
+    Scene *scene = &draft->scene;
+    TRY(table_read(reader, &CASE_TABLE, root, "", draft));
+    if (!scene->title[0]) snprintf(scene->title, sizeof scene->title, "%s", scene->name);
+    scene->hash = tree_hash(root);
+    TRY(case_resolve(reader, draft));
+    return case_check(reader, scene);
+}
+
+bool scene_load(const char *path, const char *const *overrides, int override_count, Scene *scene,
+                Error *error)
+{
+    CaseFile draft;
+    memset(&draft, 0, sizeof draft);
+    draft.scene = scene_default();
+    draft.basin_depth = draft.basin_length = draft.basin_breadth = draft.basin_freeboard = NAN;
+    if (strlen(path) >= sizeof draft.scene.path)
+        return error_set(error, ERROR_INPUT, "%.60s…: the path of a case must have < %d characters",
+                         path, SCENE_PATH_SIZE);
+    snprintf(draft.scene.path, sizeof draft.scene.path, "%s", path);
+    name_from_path(path, draft.scene.name);
+
+    JsonValue *root;
+    TRY(tree_read_file(path, &root, error));
+    JsonReader reader = {path, &draft, error};
+    bool good = true;
+    for (int i = 0; i < override_count && good; i++)
+        good = case_override(root, overrides[i], error);
+    good = good && read_tree(&reader, root, &draft);
+    tree_destroy(root);
+    if (good) *scene = draft.scene;
+    return good;
+}
