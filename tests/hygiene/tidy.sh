@@ -14,9 +14,16 @@ if [ -z "$tool" ]; then
 fi
 
 mkdir -p "$build/tidy"
+# A file that is compiled at several instruction levels is looked at once.
+awk 'BEGIN { RS = "\n}"; printf "[" }
+    match($0, /"file": "[^"]*"/) && !seen[substr($0, RSTART, RLENGTH)]++ {
+        sub(/^[^{]*/, "")
+        printf "%s%s\n}", count++ ? "," : "", $0
+    }
+    END { print "]" }' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
 common=$({
     own_files '*.h' '*.def' '.clang-tidy' | tr '\n' '\0' | xargs -0 cat
-    cat "$build/compile_commands.json"
+    cat "$build/tidy/compile_commands.json"
     echo "$checks"
 } | sha256sum | cut -d' ' -f1)
 # omp.h is gcc's; it comes after clang's own headers.
@@ -27,7 +34,7 @@ look_at() {
     stamp=$build/tidy/$(tr '/' '_' <<<"$file")${checks:+.deep}
     digest=$common-$(sha256sum <"$file")
     [ "$(cat "$stamp" 2>/dev/null)" != "$digest" ] || return 0
-    if "$tool" -p "$build" --quiet ${checks:+"--checks=$checks"} \
+    if "$tool" -p "$build/tidy" --quiet ${checks:+"--checks=$checks"} \
         --extra-arg=-Wno-unknown-warning-option --extra-arg=-idirafter"$gcc_headers" \
         "$file" 2>"$stamp.err"; then
         printf '%s\n' "$digest" >"$stamp"
