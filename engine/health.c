@@ -34,7 +34,10 @@ static void roll_back(const Scene *scene, State *state)
         line_state_restore(&state->lines[l], c->lines[l]);
     state->backend->restore(state->particles, c->particles);
     // a command given since the checkpoint stays in force
-    if (scene->waves.kind != WAVES_NONE && memcmp(&asked, &c->waves.asked, sizeof asked))
+    const WaveTarget *then = &c->waves.asked;
+    bool commanded = asked.height != then->height || asked.period != then->period ||
+                     asked.heading != then->heading;
+    if (scene->waves.kind != WAVES_NONE && commanded)
         waves_command(&state->waves, scene, &asked, state->time);
 }
 

@@ -105,8 +105,9 @@ bool list_build(ClusterList *list, const ParticleSet *a, const ParticleSet *b, c
         size_t need = (size_t)a->cluster_count * list->per_cluster + 1;
         if (need > list->entry_capacity) {
             size_t capacity = need + need / 8;
+            if (capacity > UINT32_MAX) return false;
             uint32_t *grown = realloc(list->entry, capacity * sizeof *grown);
-            if (!grown || capacity > UINT32_MAX) return false;
+            if (!grown) return false;
             list->entry = grown;
             list->entry_capacity = capacity;
         }
