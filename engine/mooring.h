@@ -22,6 +22,12 @@ typedef struct WaterField {
     double bed;     ///< z of the bed [m]
 } WaterField;
 
+/// How a line is stepped.
+typedef enum LineStepper {
+    LINE_STEPPER_RK2,  ///< explicit midpoint, sub-stepped below step_limit
+    LINE_STEPPER_BDF2, ///< implicit, variable step: any stiffness at the fluid's own step
+} LineStepper;
+
 /// One line with its nodes; node 0 is the anchor end, node `segments` the fairlead end.
 typedef struct Line {
     const LineScene *scene;
@@ -37,6 +43,7 @@ typedef struct Line {
     double touchdown;       ///< length lying on the bed [m]
     double step_limit;      ///< explicit limit of the sub-step [s]
     long substeps;          ///< taken so far
+    LineStepper stepper;    ///< set by line_create; may be changed between steps
     void *workspace;        ///< the stepper's own arrays
 } Line;
 

@@ -1,0 +1,355 @@
+/// A line's arrays, its static start, the call that advances it, and its loads on both ends.
+#include "mooring.h"
+
+#include <string.h>
+
+#include "mooring_internal.h"
+
+/// Bed damping reaches its full value at this penetration, in diameters. A switch without a ramp
+/// leaves implicit steps without a solution; a chain at rest lies about 0.02 d deep.
+static const double BED_RAMP_DIAMETERS = 0.05;
+/// Slip speed that tells sticking from sliding [m/s]; small against any dragging of interest.
+static const double FRICTION_SPEED = 1e-3;
+/// Explicit sub-steps stay this far below the smallest of the limits.
+static const double STEP_SAFETY = 0.9;
+/// A slack line that snaps taut over and over stays bounded below this many l/c (measured: 0.52).
+static const double SLACK_LIMIT = 0.5;
+
+LineConstants line_constants(const LineScene *scene, const WaterField *water)
+{
+    LineConstants c;
+    double l = scene->length / scene->segments, d = scene->diameter;
+    double displaced = water->density * PI / 4 * d * d * l;
+    c.length = l;
+    c.stiffness = scene->axial_stiffness / l;
+    c.damping = scene->damping_ratio * sqrt(scene->axial_stiffness * scene->mass_per_length);
+    c.mass = scene->mass_per_length * l;
+    c.weight = c.mass * water->gravity;
+    c.buoyancy = displaced * water->gravity;
+    c.water_mass = displaced;
+    c.added_normal = displaced * scene->added_normal;
+    c.added_tangential = displaced * scene->added_tangential;
+    c.drag_normal = 0.5 * water->density * d * l * scene->drag_normal;
+    c.drag_tangential = 0.5 * water->density * PI * d * l * scene->drag_tangential;
+    c.radius = d / 2;
+    c.bed = water->bed;
+    c.bed_stiffness = scene->bed_stiffness * d * l;
+    c.bed_damping = scene->bed_damping * d * l;
+    c.bed_ramp = BED_RAMP_DIAMETERS * d;
+    c.bed_friction = scene->bed_friction;
+    c.friction_speed = FRICTION_SPEED;
+    c.friction_cap = INFINITY;
+    return c;
+}
+
+/// Smallest of the explicit limits [s]: taut and slack segments (omega = 2 c/l) and the bed, in
+/// air, where nodes are lightest.
+static double explicit_limit(const LineConstants *c)
+{
+    double travel = sqrt(c->mass / c->stiffness); // l / c
+    double zeta = c->damping / sqrt(c->stiffness * c->mass);
+    double limit = travel * mind(0.5 * line_midpoint_limit(zeta), SLACK_LIMIT);
+    if (c->bed_stiffness > 0) {
+        double omega = sqrt(c->bed_stiffness / c->mass);
+        double bed_zeta = c->bed_damping / (2 * c->mass * omega);
+        limit = mind(limit, line_midpoint_limit(bed_zeta) / omega);
+    }
+    return STEP_SAFETY * limit;
+}
+
+static bool take_doubles(Arena *arena, double **array, int count, const char *what, Error *error)
+{
+    *array = arena_take(arena, (size_t)count, sizeof **array, what, error);
+    return *array != NULL;
+}
+
+static bool take_nodes(Arena *arena, LineNodes *nodes, int count, const char *what, Error *error)
+{
+    double **arrays[6] = {&nodes->x, &nodes->y, &nodes->z, &nodes->u, &nodes->v, &nodes->w};
+    for (int i = 0; i < 6; i++)
+        TRY(take_doubles(arena, arrays[i], count, what, error));
+    return true;
+}
+
+static bool take_workspace(Arena *arena, LineWork *work, int n, const char *what, Error *error)
+{
+    TRY(take_nodes(arena, &work->now, n, what, error));
+    TRY(take_nodes(arena, &work->middle, n, what, error));
+    double **arrays[] = {&work->dx,    &work->dy,        &work->dz,
+                         &work->px,    &work->py,        &work->pz,
+                         &work->wet,   &work->tension,   &work->peak,
+                         &work->share, &work->bed_share, &work->fx,
+                         &work->fy,    &work->fz,        &work->ax,
+                         &work->ay,    &work->az,        &work->sample_elevation};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        TRY(take_doubles(arena, arrays[i], n + 1, what, error));
+    for (int i = 0; i < 7; i++) {
+        TRY(take_doubles(arena, &work->water[0][i], n, what, error));
+        TRY(take_doubles(arena, &work->water[1][i], n, what, error));
+        TRY(take_doubles(arena, &work->water_now[i], n, what, error));
+    }
+    work->sample_velocity = arena_take(arena, (size_t)n, sizeof(Vec3), what, error);
+    work->sample_acceleration = arena_take(arena, (size_t)n, sizeof(Vec3), what, error);
+    return work->sample_velocity && work->sample_acceleration;
+}
+
+/// Length on the bed [m]: the part of each segment whose centre line is at or below it.
+static double touchdown_length(const Line *line, double bed)
+{
+    double length = 0;
+    for (int i = 0; i + 1 < line->node_count; i++) {
+        double a = line->position[i].z - bed, b = line->position[i + 1].z - bed;
+        double low = mind(a, b), high = maxd(a, b);
+        double share = high <= 0 ? 1 : low > 0 ? 0 : -low / (high - low);
+        length += share * line->segment_length;
+    }
+    return length;
+}
+
+/// Tension, touchdown and water of the state as it stands; used after the start.
+static void line_settle(Line *line, const WaterField *water)
+{
+    LineWork *work = line->workspace;
+    int last = line->node_count - 1;
+    work->water_moves = false;
+    for (int i = 0; i <= last; i++)
+        work->water_now[6][i] = water->level;
+    for (int i = 0; i <= last; i++) {
+        work->now.x[i] = line->position[i].x;
+        work->now.y[i] = line->position[i].y;
+        work->now.z[i] = line->position[i].z;
+        work->now.u[i] = work->now.v[i] = work->now.w[i] = 0;
+    }
+    line_segments(work, &work->now);
+    line_node_forces(work, &work->now);
+    memcpy(line->tension, work->tension + 1, (size_t)last * sizeof(double));
+    for (int i = 0; i < last; i++)
+        line->largest_tension = maxd(line->largest_tension, line->tension[i]);
+    line->anchor_force = vec3(work->fx[0], work->fy[0], work->fz[0]);
+    line->fairlead_force = vec3(work->fx[last], work->fy[last], work->fz[last]);
+    line->touchdown = touchdown_length(line, work->constants.bed);
+}
+
+bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const WaterField *water,
+                 const char *where, Arena *arena, Line *line, LineStatics *statics, Error *error)
+{
+    int n = scene->segments + 1;
+    memset(line, 0, sizeof *line);
+    line->scene = scene;
+    line->node_count = n;
+    line->segment_length = scene->length / scene->segments;
+    line->stepper = LINE_STEPPER_RK2;
+    line->position = arena_take(arena, (size_t)n, sizeof(Vec3), where, error);
+    line->velocity = arena_take(arena, (size_t)n, sizeof(Vec3), where, error);
+    LineWork *work = arena_take(arena, 1, sizeof *work, where, error);
+    if (!line->position || !line->velocity || !work) return false;
+    TRY(take_doubles(arena, &line->tension, n, where, error));
+    TRY(take_workspace(arena, work, n, where, error));
+    LineStatics unused;
+    TRY(line_statics(scene, anchor, fairlead, water, where, line->position,
+                     statics ? statics : &unused, error));
+
+    work->constants = line_constants(scene, water);
+    work->node_count = n;
+    line->step_limit = explicit_limit(&work->constants);
+    work->constants.friction_cap = work->constants.mass / line->step_limit;
+    for (int i = 0; i < n; i++) {
+        bool end = i == 0 || i == n - 1;
+        work->share[i] = end ? 0.5 : 1;
+        work->bed_share[i] = end ? 0 : 1;
+    }
+    line->workspace = work;
+    line_settle(line, water);
+    return true;
+}
+
+Vec3 end_path_position(const EndPath *path, double duration, double fraction)
+{
+    double s = fraction, s2 = s * s, s3 = s2 * s;
+    Vec3 p = vec3_scale(path->position[0], 2 * s3 - 3 * s2 + 1);
+    p = vec3_mad(p, path->position[1], 3 * s2 - 2 * s3);
+    p = vec3_mad(p, path->velocity[0], duration * (s3 - 2 * s2 + s));
+    return vec3_mad(p, path->velocity[1], duration * (s3 - s2));
+}
+
+Vec3 end_path_velocity(const EndPath *path, double duration, double fraction)
+{
+    double s = fraction, s2 = s * s;
+    Vec3 moved = vec3_sub(path->position[1], path->position[0]);
+    Vec3 v = vec3_scale(moved, 6 * (s - s2) / duration);
+    v = vec3_mad(v, path->velocity[0], 3 * s2 - 4 * s + 1);
+    return vec3_mad(v, path->velocity[1], 3 * s2 - 2 * s);
+}
+
+void line_hold_ends(LineNodes *nodes, int last, const LineSpan *span, double fraction)
+{
+    const EndPath *paths[2] = {span->anchor, span->fairlead};
+    int ends[2] = {0, last};
+    for (int k = 0; k < 2; k++) {
+        Vec3 p = end_path_position(paths[k], span->duration, fraction);
+        Vec3 v = end_path_velocity(paths[k], span->duration, fraction);
+        nodes->x[ends[k]] = p.x;
+        nodes->y[ends[k]] = p.y;
+        nodes->z[ends[k]] = p.z;
+        nodes->u[ends[k]] = v.x;
+        nodes->v[ends[k]] = v.y;
+        nodes->w[ends[k]] = v.z;
+    }
+}
+
+void line_water_at(LineWork *work, double fraction)
+{
+    if (!work->water_moves) return;
+    int count = work->node_count;
+    for (int k = 0; k < 7; k++) {
+        const double *restrict a = work->water[0][k], *restrict b = work->water[1][k];
+        double *restrict now = work->water_now[k];
+        for (int i = 0; i < count; i++)
+            now[i] = a[i] + fraction * (b[i] - a[i]);
+    }
+}
+
+/// Ask for the water at the nodes' present places at begin and end of the call; in between it is
+/// taken linear in time (two questions per fluid step, however many sub-steps follow).
+static void sample_water(Line *line, const WaterField *water, double time, double duration)
+{
+    LineWork *work = line->workspace;
+    int count = line->node_count;
+    work->water_moves = water->at_nodes != NULL;
+    if (!work->water_moves) {
+        for (int k = 0; k < 7; k++)
+            for (int i = 0; i < count; i++)
+                work->water_now[k][i] = k == 6 ? water->level : 0;
+        return;
+    }
+    for (int side = 0; side < 2; side++) {
+        water->at_nodes(water->context, time + side * duration, count, line->position,
+                        work->sample_velocity, work->sample_acceleration, work->sample_elevation);
+        double **to = work->water[side];
+        for (int i = 0; i < count; i++) {
+            to[0][i] = work->sample_velocity[i].x;
+            to[1][i] = work->sample_velocity[i].y;
+            to[2][i] = work->sample_velocity[i].z;
+            to[3][i] = work->sample_acceleration[i].x;
+            to[4][i] = work->sample_acceleration[i].y;
+            to[5][i] = work->sample_acceleration[i].z;
+            to[6][i] = work->sample_elevation[i];
+        }
+    }
+}
+
+/// The line's pull on what holds an end: mean force on its half segment less what that half
+/// segment's own (and added) mass takes up.
+static Vec3 end_pull(const LineWork *work, int node, Vec3 impulse, const EndPath *path,
+                     double duration)
+{
+    Vec3 d = vec3(work->dx[node] + work->dx[node + 1], work->dy[node] + work->dy[node + 1],
+                  work->dz[node] + work->dz[node + 1]);
+    double norm = vec3_norm(d);
+    Vec3 q = vec3_scale(d, norm > 0 ? 1 / norm : 0);
+    double wet = 0.5 * (work->wet[node] + work->wet[node + 1]);
+    Vec3 gained = vec3_sub(path->velocity[1], path->velocity[0]);
+    Vec3 kept =
+        line_inertia(line_mass_normal(&work->constants, work->share[node], wet),
+                     line_mass_tangential(&work->constants, work->share[node], wet), q, gained);
+    return vec3_scale(vec3_sub(impulse, kept), 1 / duration);
+}
+
+static void line_load(Line *line)
+{
+    LineNodes *now = &((LineWork *)line->workspace)->now;
+    for (int i = 0; i < line->node_count; i++) {
+        now->x[i] = line->position[i].x;
+        now->y[i] = line->position[i].y;
+        now->z[i] = line->position[i].z;
+        now->u[i] = line->velocity[i].x;
+        now->v[i] = line->velocity[i].y;
+        now->w[i] = line->velocity[i].z;
+    }
+}
+
+static void line_store(Line *line, const LineSpan *span)
+{
+    LineWork *work = line->workspace;
+    const LineNodes *now = &work->now;
+    int last = line->node_count - 1;
+    for (int i = 0; i <= last; i++) {
+        line->position[i] = vec3(now->x[i], now->y[i], now->z[i]);
+        line->velocity[i] = vec3(now->u[i], now->v[i], now->w[i]);
+    }
+    memcpy(line->tension, work->tension + 1, (size_t)last * sizeof(double));
+    for (int i = 1; i <= last; i++)
+        line->largest_tension = maxd(line->largest_tension, work->peak[i]);
+    line->touchdown = touchdown_length(line, work->constants.bed);
+    line->anchor_force = end_pull(work, 0, work->end_force[0], span->anchor, span->duration);
+    line->fairlead_force = end_pull(work, last, work->end_force[1], span->fairlead, span->duration);
+}
+
+bool line_advance(Line *line, const WaterField *water, double time, double duration,
+                  const EndPath *anchor, const EndPath *fairlead, Error *error)
+{
+    ASSERT(duration > 0);
+    LineWork *work = line->workspace;
+    LineSpan span = {time, duration, anchor, fairlead};
+    line_load(line);
+    line_hold_ends(&work->now, line->node_count - 1, &span, 0);
+    sample_water(line, water, time, duration);
+    memset(work->peak, 0, (size_t)(line->node_count + 1) * sizeof(double));
+    work->end_force[0] = work->end_force[1] = vec3(0, 0, 0);
+    double sick_time = time;
+    int sick = line_step_rk2(line, &span, &sick_time);
+    if (sick < 0) {
+        line_water_at(work, 1);
+        line_segments(work, &work->now);
+        line_store(line, &span);
+        return true;
+    }
+    const LineNodes *now = &work->now;
+    return error_set(error, ERROR_PHYSICS,
+                     "line %s: node %d at t = %.6g s: position (%.4g, %.4g, %.4g) m, velocity "
+                     "(%.4g, %.4g, %.4g) m/s; accepted: finite and slower than sound in the line, "
+                     "%.4g m/s (sub-step limit %.3g s)",
+                     line->scene->name, sick, sick_time, now->x[sick], now->y[sick], now->z[sick],
+                     now->u[sick], now->v[sick], now->w[sick],
+                     sqrt(line->scene->axial_stiffness / line->scene->mass_per_length),
+                     line->step_limit);
+}
+
+/// A saved line: positions, velocities, tensions, nine numbers, history of the implicit stepper.
+size_t line_state_size(const Line *line)
+{
+    const LineWork *work = line->workspace;
+    return (size_t)line->node_count * 7 + 9 + work->history_size;
+}
+
+void line_state_save(const Line *line, double *to)
+{
+    const LineWork *work = line->workspace;
+    size_t n = (size_t)line->node_count;
+    memcpy(to, line->position, n * sizeof(Vec3));
+    memcpy(to + 3 * n, line->velocity, n * sizeof(Vec3));
+    memcpy(to + 6 * n, line->tension, n * sizeof(double));
+    double *rest = to + 7 * n;
+    memcpy(rest, &line->fairlead_force, sizeof(Vec3));
+    memcpy(rest + 3, &line->anchor_force, sizeof(Vec3));
+    rest[6] = line->largest_tension;
+    rest[7] = line->touchdown;
+    rest[8] = (double)line->substeps;
+    if (work->history_size) memcpy(rest + 9, work->history, work->history_size * sizeof(double));
+}
+
+void line_state_restore(Line *line, const double *from)
+{
+    LineWork *work = line->workspace;
+    size_t n = (size_t)line->node_count;
+    memcpy(line->position, from, n * sizeof(Vec3));
+    memcpy(line->velocity, from + 3 * n, n * sizeof(Vec3));
+    memcpy(line->tension, from + 6 * n, n * sizeof(double));
+    const double *rest = from + 7 * n;
+    memcpy(&line->fairlead_force, rest, sizeof(Vec3));
+    memcpy(&line->anchor_force, rest + 3, sizeof(Vec3));
+    line->largest_tension = rest[6];
+    line->touchdown = rest[7];
+    line->substeps = (long)rest[8];
+    if (work->history_size) memcpy(work->history, rest + 9, work->history_size * sizeof(double));
+}

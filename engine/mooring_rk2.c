@@ -1,0 +1,157 @@
+/// Forces on the nodes of a line and the explicit midpoint step. Plain loops over one array per
+/// component: this file is compiled so that they vectorise (see CMakeLists.txt).
+#include "mooring_internal.h"
+
+/// The same loops compiled for wider registers, chosen when the program starts; without contraction
+/// all give the same bits. (Sanitizers are not ready yet when that choice is made.)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define WIDE
+#endif
+
+/// Nodes are examined for sickness every so many sub-steps.
+enum { SICKNESS_INTERVAL = 16 };
+
+WIDE void line_segments(LineWork *work, const LineNodes *nodes)
+{
+    const LineConstants c = work->constants;
+    const double *restrict x = nodes->x, *restrict y = nodes->y, *restrict z = nodes->z;
+    const double *restrict u = nodes->u, *restrict v = nodes->v, *restrict w = nodes->w;
+    const double *restrict elevation = work->water_now[6];
+    double *restrict dx = work->dx + 1, *restrict dy = work->dy + 1, *restrict dz = work->dz + 1;
+    double *restrict px = work->px + 1, *restrict py = work->py + 1, *restrict pz = work->pz + 1;
+    double *restrict wet = work->wet + 1, *restrict tension = work->tension + 1;
+    double *restrict peak = work->peak + 1;
+    int count = work->node_count - 1;
+    double tiny = 1e-24 * c.length * c.length; // a segment of no length has no direction
+#pragma GCC ivdep
+    for (int i = 0; i < count; i++) {
+        double ex = x[i + 1] - x[i], ey = y[i + 1] - y[i], ez = z[i + 1] - z[i];
+        double s = sqrt(ex * ex + ey * ey + ez * ez + tiny);
+        double inverse = 1 / s;
+        double rate =
+            (ex * (u[i + 1] - u[i]) + ey * (v[i + 1] - v[i]) + ez * (w[i + 1] - w[i])) * inverse;
+        double t = line_tension(&c, s, rate);
+        double pull = t * inverse;
+        dx[i] = ex;
+        dy[i] = ey;
+        dz[i] = ez;
+        px[i] = ex * pull;
+        py[i] = ey * pull;
+        pz[i] = ez * pull;
+        wet[i] = line_wet_fraction(elevation[i] - z[i], elevation[i + 1] - z[i + 1], c.radius);
+        tension[i] = t;
+        peak[i] = t > peak[i] ? t : peak[i];
+    }
+}
+
+WIDE void line_node_forces(LineWork *work, const LineNodes *nodes)
+{
+    const LineConstants c = work->constants;
+    const double *restrict z = nodes->z;
+    const double *restrict u = nodes->u, *restrict v = nodes->v, *restrict w = nodes->w;
+    const double *restrict dx = work->dx, *restrict dy = work->dy, *restrict dz = work->dz;
+    const double *restrict px = work->px, *restrict py = work->py, *restrict pz = work->pz;
+    const double *restrict wetness = work->wet;
+    const double *restrict share = work->share, *restrict bed_share = work->bed_share;
+    const double *restrict wu = work->water_now[0], *restrict wv = work->water_now[1];
+    const double *restrict ww = work->water_now[2], *restrict wax = work->water_now[3];
+    const double *restrict way = work->water_now[4], *restrict waz = work->water_now[5];
+    double *restrict fx = work->fx, *restrict fy = work->fy, *restrict fz = work->fz;
+    double *restrict ax = work->ax, *restrict ay = work->ay, *restrict az = work->az;
+    double tiny = 1e-24 * c.length * c.length;
+    int count = work->node_count;
+#pragma GCC ivdep
+    for (int i = 0; i < count; i++) {
+        Vec3 q = vec3(dx[i] + dx[i + 1], dy[i] + dy[i + 1], dz[i] + dz[i + 1]);
+        q = vec3_scale(q, 1 / sqrt(vec3_dot(q, q) + tiny));
+        double wet = 0.5 * (wetness[i] + wetness[i + 1]);
+        Vec3 drag = line_drag(&c, wet, q, vec3(wu[i] - u[i], wv[i] - v[i], ww[i] - w[i]));
+        Vec3 inertia = line_water_inertia(&c, wet, q, vec3(wax[i], way[i], waz[i]));
+        double bed = line_bed_force(&c, bed_share[i], z[i], w[i]);
+        double rub = line_bed_friction(&c, bed, sqrt(u[i] * u[i] + v[i] * v[i]));
+        Vec3 f;
+        f.x = px[i + 1] - px[i] + drag.x + inertia.x - rub * u[i];
+        f.y = py[i + 1] - py[i] + drag.y + inertia.y - rub * v[i];
+        f.z = pz[i + 1] - pz[i] + drag.z + inertia.z + bed + c.buoyancy * wet - c.weight * share[i];
+        Vec3 a = line_acceleration(line_mass_normal(&c, share[i], wet),
+                                   line_mass_tangential(&c, share[i], wet), q, f);
+        fx[i] = f.x;
+        fy[i] = f.y;
+        fz[i] = f.z;
+        ax[i] = a.x;
+        ay[i] = a.y;
+        az[i] = a.z;
+    }
+}
+
+/// to = from + rate * h for positions and velocities of all nodes; `to` may be `from`, not `rate`.
+WIDE static void nodes_move(const LineWork *work, LineNodes *to, const LineNodes *from,
+                            const LineNodes *rate, double h)
+{
+    const double *restrict u = rate->u, *restrict v = rate->v, *restrict w = rate->w;
+    const double *restrict ax = work->ax, *restrict ay = work->ay, *restrict az = work->az;
+    int count = work->node_count;
+#pragma GCC ivdep
+    for (int i = 0; i < count; i++) {
+        to->x[i] = from->x[i] + h * u[i];
+        to->y[i] = from->y[i] + h * v[i];
+        to->z[i] = from->z[i] + h * w[i];
+        to->u[i] = from->u[i] + h * ax[i];
+        to->v[i] = from->v[i] + h * ay[i];
+        to->w[i] = from->w[i] + h * az[i];
+    }
+}
+
+/// First node that is not finite or faster than sound in the line, -1 when there is none.
+static int nodes_sick(const LineNodes *nodes, int count, double speed_squared)
+{
+    for (int i = 0; i < count; i++) {
+        double speed2 =
+            nodes->u[i] * nodes->u[i] + nodes->v[i] * nodes->v[i] + nodes->w[i] * nodes->w[i];
+        double place = nodes->x[i] + nodes->y[i] + nodes->z[i];
+        if (!(speed2 < speed_squared) || !isfinite(place)) return i;
+    }
+    return -1;
+}
+
+int line_step_rk2(Line *line, const LineSpan *span, double *sick_time)
+{
+    LineWork *work = line->workspace;
+    LineNodes *now = &work->now, *middle = &work->middle;
+    int last = work->node_count - 1;
+    long count = (long)ceil(span->duration / line->step_limit - 1e-9);
+    count = count < 1 ? 1 : count;
+    double h = span->duration / (double)count;
+    double sound_squared = work->constants.stiffness * work->constants.length *
+                           work->constants.length / work->constants.mass;
+    for (long k = 0; k < count; k++) {
+        line_water_at(work, (double)k / (double)count);
+        line_segments(work, now);
+        line_node_forces(work, now);
+        nodes_move(work, middle, now, now, 0.5 * h);
+
+        line_hold_ends(middle, last, span, ((double)k + 0.5) / (double)count);
+        line_water_at(work, ((double)k + 0.5) / (double)count);
+        line_segments(work, middle);
+        line_node_forces(work, middle);
+        nodes_move(work, now, now, middle, h);
+        line_hold_ends(now, last, span, (double)(k + 1) / (double)count);
+
+        work->end_force[0] =
+            vec3_mad(work->end_force[0], vec3(work->fx[0], work->fy[0], work->fz[0]), h);
+        work->end_force[1] =
+            vec3_mad(work->end_force[1], vec3(work->fx[last], work->fy[last], work->fz[last]), h);
+        if (k % SICKNESS_INTERVAL == 0 || k == count - 1) {
+            int sick = nodes_sick(now, last + 1, sound_squared);
+            if (sick >= 0) {
+                *sick_time = span->time + h * (double)(k + 1);
+                return sick;
+            }
+        }
+    }
+    line->substeps += count;
+    return -1;
+}
