@@ -31,6 +31,20 @@ static Lattice lattice_of(Vec3 min, Vec3 max, double spacing, int dimensions)
     return lattice;
 }
 
+/// Depths at which a column of compressed water carries its own weight: density rho0 (1 + b/B),
+/// B = c0^2/g, so the mass above depth b is rho0 (b + b^2/2B). A uniform lattice would sink by
+/// about half a percent of the depth and ring.
+static double column_mass(const Scene *scene, const Plan *plan, double depth)
+{
+    double scale = plan->sound_speed * plan->sound_speed / scene->fluid.gravity;
+    return depth + depth * depth / (2 * scale);
+}
+static double column_depth(const Scene *scene, const Plan *plan, double mass)
+{
+    double scale = plan->sound_speed * plan->sound_speed / scene->fluid.gravity;
+    return scale * (sqrt(1 + 2 * mass / scale) - 1);
+}
+
 static Vec3 lattice_point(const Lattice *l, int i, int j, int k)
 {
     return vec3(l->min.x + (i + 0.5) * l->pitch[0], l->min.y + (j + 0.5) * l->pitch[1],
@@ -82,16 +96,21 @@ static void fill_box(const Scene *scene, const Plan *plan, const WaveState *wave
                      Vec3 min, Vec3 max)
 {
     Lattice l = lattice_of(min, max, scene->fluid.spacing, scene->domain.dimensions);
+    double mass = column_mass(scene, plan, max.z - min.z) / l.count[2];
     for (int i = 0; i < l.count[0]; i++)
         for (int j = 0; j < l.count[1]; j++)
-            for (int k = 0; k < l.count[2]; k++)
-                add_fluid(scene, plan, waves, fill, lattice_point(&l, i, j, k), max.z);
+            for (int k = 0; k < l.count[2]; k++) {
+                Vec3 mean = lattice_point(&l, i, j, k);
+                mean.z = max.z - column_depth(scene, plan, (l.count[2] - k - 0.5) * mass);
+                add_fluid(scene, plan, waves, fill, mean, max.z);
+            }
 }
 
-static double box_mass(const Scene *scene, Vec3 min, Vec3 max)
+static double box_mass(const Scene *scene, const Plan *plan, Vec3 min, Vec3 max)
 {
     Lattice l = lattice_of(min, max, scene->fluid.spacing, scene->domain.dimensions);
-    return scene->fluid.density * l.pitch[0] * l.pitch[1] * l.pitch[2];
+    double high = column_mass(scene, plan, max.z - min.z) / l.count[2];
+    return scene->fluid.density * l.pitch[0] * l.pitch[1] * high;
 }
 
 static void fill_water(const Scene *scene, const Plan *plan, Fill *fill)
@@ -104,14 +123,14 @@ static void fill_water(const Scene *scene, const Plan *plan, Fill *fill)
     if (!scene->fluid.block_count) {
         Vec3 top = domain->max;
         top.z = scene->fluid.level;
-        fill->particle_mass = box_mass(scene, domain->min, top);
+        fill->particle_mass = box_mass(scene, plan, domain->min, top);
         fill_box(scene, plan, hot ? &state : NULL, fill, domain->min, top);
         return;
     }
     double mass = 0;
     for (int b = 0; b < scene->fluid.block_count; b++) {
         const FluidBlock *block = &scene->fluid.blocks[b];
-        mass += box_mass(scene, block->min, block->max) / scene->fluid.block_count;
+        mass += box_mass(scene, plan, block->min, block->max) / scene->fluid.block_count;
         fill_box(scene, plan, NULL, fill, block->min, block->max);
     }
     fill->particle_mass = mass;

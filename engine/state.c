@@ -30,7 +30,8 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     s.largest_travel = 0.25 * plan->largest_speed * plan->time_step;
     s.pair_mask = plan->pair_mask;
     // dummies behind the walls, waves of the ring, bodies that stick out, spray above
-    double side = (plan->wall_layers + 1) * s.spacing + scene->waves.height_limits.max;
+    double side = (plan->wall_layers + 1) * s.spacing;
+    if (scene->waves.kind != WAVES_NONE) side += scene->waves.height_limits.max;
     double top = d->max.z + 0.5 * (d->max.z - d->min.z);
     for (int b = 0; b < scene->body_count; b++) {
         const MeshProperties *p = &plan->bodies[b].geometry.properties;
