@@ -107,9 +107,12 @@ static bool create_checkpoint(const Scene *scene, State *state, Error *error)
     return true;
 }
 
-/// What the pair effects cost in their sweeps, measured once: a bit cannot be timed while it runs.
-static bool measure_pair_costs(const Scene *scene, const Plan *plan, State *state, Error *error)
+/// Put moving dummies in their places and measure once what the pair effects cost in their sweeps:
+/// a bit cannot be timed while it runs.
+static bool place_and_measure(const Scene *scene, const Plan *plan, State *state, Error *error)
 {
+    Advance now = step_orders(scene, plan, state, 0);
+    state->backend->place(state->particles, &now);
     for (int b = 0; b < scene->body_count; b++)
         state->centres[b] = state->bodies[b].position;
     TRY(state->backend->forces(state->particles, state->centres, state->loads, error));
@@ -130,7 +133,7 @@ bool state_create(const Scene *scene, const Plan *plan, State **result, Error *e
     if (scene->waves.kind != WAVES_NONE) state->waves = waves_create(scene);
     if (create_particles(scene, plan, state, error) &&
         create_bodies_and_lines(scene, plan, state, error) &&
-        create_checkpoint(scene, state, error) && measure_pair_costs(scene, plan, state, error)) {
+        create_checkpoint(scene, state, error) && place_and_measure(scene, plan, state, error)) {
         *result = state;
         return true;
     }

@@ -72,8 +72,6 @@ static void advance_bodies(const Scene *scene, State *state, double dt)
         body->fluid_force = state->loads[b].force;
         body->fluid_moment = state->loads[b].moment;
         body_advance(body, &scene->bodies[b], scene->fluid.gravity, state->time, dt);
-        state->poses[b].origin = body_point(body, vec3(0, 0, 0));
-        state->poses[b].attitude = body->attitude;
     }
 }
 
@@ -130,6 +128,24 @@ static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State 
     return zone;
 }
 
+Advance step_orders(const Scene *scene, const Plan *plan, State *state, double dt)
+{
+    Advance advance;
+    memset(&advance, 0, sizeof advance);
+    for (int b = 0; b < scene->body_count; b++) {
+        state->poses[b].origin = body_point(&state->bodies[b], vec3(0, 0, 0));
+        state->poses[b].attitude = state->bodies[b].attitude;
+    }
+    advance.time = state->time;
+    advance.dt = dt;
+    advance.poses = state->poses;
+    advance.waves = &state->waves;
+    advance.ring = plan->effects[EFFECT_RING].active ? move_ring : NULL;
+    advance.piston = plan->effects[EFFECT_PISTON].active ? piston_move : NULL;
+    advance.zone = zone_of(scene, plan, state);
+    return advance;
+}
+
 static bool step_once(const Scene *scene, const Plan *plan, State *state, double dt,
                       ParticleSums *sums, Error *error)
 {
@@ -147,15 +163,7 @@ static bool step_once(const Scene *scene, const Plan *plan, State *state, double
     TRY(advance_lines(scene, state, dt, &paths, error));
     state->line_seconds += wall_clock() - lap;
 
-    Advance advance;
-    memset(&advance, 0, sizeof advance);
-    advance.time = state->time;
-    advance.dt = dt;
-    advance.poses = state->poses;
-    advance.waves = &state->waves;
-    advance.ring = plan->effects[EFFECT_RING].active ? move_ring : NULL;
-    advance.piston = plan->effects[EFFECT_PISTON].active ? piston_move : NULL;
-    advance.zone = zone_of(scene, plan, state);
+    Advance advance = step_orders(scene, plan, state, dt);
     state->backend->advance(state->particles, &advance, sums);
 
     state->time += dt;

@@ -108,6 +108,9 @@ typedef struct BackendTable {
     void (*destroy)(Backend *backend);
     /// "x86-64-v4" …
     const char *(*variant)(const Backend *backend);
+    /// Put moving dummies where they are at advance->time (+ dt 0); call once before the first
+    /// step.
+    void (*place)(Backend *backend, const Advance *advance);
     /// Sums of accelerations at the present places; fluid loads on bodies about `about`.
     bool (*forces)(Backend *backend, const Vec3 *about, BodyLoad *loads, Error *error);
     void (*advance)(Backend *backend, const Advance *advance, ParticleSums *sums);

@@ -319,9 +319,22 @@ static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density
 const BackendTable *backend_cpu(void)
 {
     static const BackendTable table = {
-        "cpu",       cpu_create,   cpu_destroy,   cpu_variant,   cpu_forces,
-        cpu_advance, cpu_download, cpu_elevation, cpu_pressure,  cpu_state_size,
-        cpu_save,    cpu_restore,  cpu_clocks,    cpu_pair_cost, cpu_probe_rates,
+        .name = "cpu",
+        .create = cpu_create,
+        .destroy = cpu_destroy,
+        .variant = cpu_variant,
+        .place = cpu_place,
+        .forces = cpu_forces,
+        .advance = cpu_advance,
+        .download = cpu_download,
+        .elevation = cpu_elevation,
+        .pressure = cpu_pressure,
+        .state_size = cpu_state_size,
+        .save = cpu_save,
+        .restore = cpu_restore,
+        .clocks = cpu_clocks,
+        .pair_cost = cpu_pair_cost,
+        .probe_rates = cpu_probe_rates,
     };
     return &table;
 }

@@ -29,6 +29,7 @@ double cpu_clock(void);
 bool cpu_neighbours(Backend *backend, Error *error);
 /// Slab by slab, even ones first, then odd ones: each slab writes to itself and the next.
 void cpu_sweep_fluid(Backend *backend, void (*function)(const Sweep *, int, int));
+void cpu_place(Backend *backend, const Advance *advance);
 void cpu_advance(Backend *backend, const Advance *advance, ParticleSums *sums);
 void cpu_update_pressure(Backend *backend);
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);

@@ -199,6 +199,14 @@ static void finish_dummies(Backend *b)
             if (m->id[i] >= 0) m->position[a][i] = m->spare_position[a][i];
 }
 
+void cpu_place(Backend *b, const Advance *advance)
+{
+    for (int begin = 0; begin < b->moving.cluster_count * CLUSTER; begin += BLOCK)
+        block_targets(b, advance, begin, block_end(&b->moving, begin));
+    finish_dummies(b);
+    b->sorted = false;
+}
+
 /// New density, second half drift, pressure; what health wants to know about the block.
 static void block_finish(Backend *b, int begin, int end, float dt, ParticleSums *sums)
 {
