@@ -10,8 +10,8 @@ static const double FAR_HEADING = 60 * PI / 180;
 static const double FAR_PERIOD = 0.30;
 /// A layer runs this share of its rise before the next may begin.
 static const double LAYER_SPACING = 1.0 / 3;
-/// Width of the relaxation zone in longest wave lengths (measured, docs/physics.md).
-static const double ZONE_LENGTHS = 0.75;
+/// Width of the relaxation zone and length of the beach in longest wave lengths (docs/physics.md).
+static const double ZONE_LENGTHS = 0.75, BEACH_LENGTHS = 1.0;
 
 double wave_number_airy(double angular_frequency, double depth, double gravity)
 {
@@ -336,11 +336,12 @@ static double wave_length(const Scene *scene, double period)
 
 double waves_zone_width(const Scene *scene)
 {
-    if (scene->waves.kind == WAVES_NONE || scene->domain.kind != DOMAIN_BASIN) return 0;
+    if (scene->waves.kind == WAVES_NONE || scene->domain.kind == DOMAIN_TANK) return 0;
     if (scene->waves.zone_width > 0) return scene->waves.zone_width;
     double longest = scene->waves.initial.period;
     if (scene->waves.period_limits.max > longest) longest = scene->waves.period_limits.max;
-    return ZONE_LENGTHS * wave_length(scene, longest);
+    double lengths = scene->domain.kind == DOMAIN_FLUME ? BEACH_LENGTHS : ZONE_LENGTHS;
+    return lengths * wave_length(scene, longest);
 }
 
 /// Appends one warning; counts it even where the text has no room left.

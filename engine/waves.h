@@ -101,11 +101,17 @@ void waves_ring_batch(const WaveState *waves, double time, int count, const floa
 void waves_ring_acceleration_batch(const WaveState *waves, double time, int count,
                                    const float (*mean)[3], float (*acceleration)[3]);
 
+/// Places of many ring points in double precision: mean + waves_displacement to 1e-15. For callers
+/// that take the wall's velocity and acceleration by differences.
+void waves_ring_places(const WaveState *waves, double time, int count, const Vec3 *mean,
+                       Vec3 *place);
+
 /// waves_zone_velocity of many places [count]; y and v may be NULL (2-D).
 void waves_zone_batch(const WaveState *waves, double time, int count, const float *x,
                       const float *y, const float *z, float *u, float *v, float *w);
 
-/// Width of the relaxation zone [m]: the case's, or 0.75 of the longest wave that may be set live.
+/// Width of the basin's relaxation zone or of the flume's beach [m]: the case's, or 0.75 of the
+/// longest wave that may be set live (the whole of it for a beach). 0 without waves and in a tank.
 double waves_zone_width(const Scene *scene);
 
 /// Warnings a user should read: beyond breaking (Miche), too coarse (H/dp < 5), basin too small.

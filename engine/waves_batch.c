@@ -110,6 +110,52 @@ void waves_ring_acceleration_batch(const WaveState *waves, double time, int coun
     }
 }
 
+typedef struct PlaceBlock {
+    double x[BLOCK], y[BLOCK], z[BLOCK];
+    double dx[BLOCK], dy[BLOCK], dz[BLOCK];
+    double e[BLOCK];
+} PlaceBlock;
+
+static void place_block_move(PlaceBlock *RESTRICT b, const WaveTerms w)
+{
+    // The exponential is a call; the rest is vectorised.
+    for (int i = 0; i < BLOCK; i++)
+        b->e[i] = exp(w.wave_number * mind(b->z[i] - w.level, 0.0));
+#pragma omp simd
+    for (int i = 0; i < BLOCK; i++) {
+        WavePlace p;
+        double turns = w.turns_x * b->x[i] + w.turns_y * b->y[i] + w.turns;
+        wave_sine_cosine_double(wave_fraction_double(turns), &p.sine, &p.cosine);
+        p.e = b->e[i];
+        p.f = w.depth_ratio / p.e;
+        WaveMotion d = wave_orbit(w, p);
+        b->dx[i] += w.weight * d.along * w.cos_heading;
+        b->dy[i] += w.weight * d.along * w.sin_heading;
+        b->dz[i] += w.weight * d.up;
+    }
+}
+
+void waves_ring_places(const WaveState *waves, double time, int count, const Vec3 *mean,
+                       Vec3 *place)
+{
+    WaveTerms terms[WAVE_LAYERS_MAX];
+    int term_count = waves_terms(waves, time, terms);
+    for (int begin = 0; begin < count; begin += BLOCK) {
+        PlaceBlock b;
+        int n = count - begin < BLOCK ? count - begin : BLOCK;
+        memset(&b, 0, sizeof b);
+        for (int i = 0; i < n; i++) {
+            b.x[i] = mean[begin + i].x;
+            b.y[i] = mean[begin + i].y;
+            b.z[i] = mean[begin + i].z;
+        }
+        for (int k = 0; k < term_count; k++)
+            place_block_move(&b, terms[k]);
+        for (int i = 0; i < n; i++)
+            place[begin + i] = vec3(b.x[i] + b.dx[i], b.y[i] + b.dy[i], b.z[i] + b.dz[i]);
+    }
+}
+
 typedef struct ZoneBlock {
     float x[BLOCK], y[BLOCK], z[BLOCK];
     float elevation[BLOCK];

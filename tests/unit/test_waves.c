@@ -334,13 +334,18 @@ static void check_batch(const WaveState *waves, double time, double depth, doubl
     waves_ring_batch(waves, time, COUNT, (const float(*)[3])mean, place, velocity);
     waves_ring_acceleration_batch(waves, time, COUNT, (const float(*)[3])mean, acceleration);
     waves_zone_batch(waves, time, COUNT, x, y, z, u, v, w);
-    double worst[4] = {0, 0, 0, 0};
+    static Vec3 precise_mean[COUNT], precise[COUNT];
+    for (int i = 0; i < COUNT; i++)
+        precise_mean[i] = vec3(x[i], y[i], z[i]);
+    waves_ring_places(waves, time, COUNT, precise_mean, precise);
+    double worst[5] = {0, 0, 0, 0, 0};
     for (int i = 0; i < COUNT; i++) {
-        Vec3 p = vec3(x[i], y[i], z[i]);
+        Vec3 p = precise_mean[i];
         Vec3 ring = vec3_add(p, waves_displacement(waves, p, time));
         Vec3 rate = waves_orbit_velocity(waves, p, time);
         Vec3 curve = waves_orbit_acceleration(waves, p, time);
         Vec3 zone = waves_zone_velocity(waves, p, time);
+        worst[4] = maxd(worst[4], distance(ring, precise[i]));
         worst[0] = maxd(worst[0], distance(ring, vec3(place[i][0], place[i][1], place[i][2])));
         worst[1] =
             maxd(worst[1], distance(rate, vec3(velocity[i][0], velocity[i][1], velocity[i][2])));
@@ -353,6 +358,7 @@ static void check_batch(const WaveState *waves, double time, double depth, doubl
     CHECK(worst[1] < 2e-5 * height);
     CHECK(worst[2] < 2e-4 * height);
     CHECK(worst[3] < 2e-5 * height);
+    CHECK(worst[4] < 5e-15);
 }
 
 TEST(batches_agree_with_the_scalar_functions)
@@ -432,6 +438,11 @@ TEST(the_zone_is_sized_for_the_longest_wave_that_may_be_asked)
     scene->waves.period_limits.max = 1.5;
     double length = 2 * PI / wave_number_airy(2 * PI / 1.5, 1, GRAVITY);
     CHECK_NEAR(waves_zone_width(scene), 0.75 * length, 1e-12);
+    scene->domain.kind = DOMAIN_FLUME;
+    CHECK_NEAR(waves_zone_width(scene), length, 1e-12);
+    scene->domain.kind = DOMAIN_TANK;
+    CHECK(waves_zone_width(scene) == 0);
+    scene->domain.kind = DOMAIN_BASIN;
     scene->waves.zone_width = 1.1;
     CHECK(waves_zone_width(scene) == 1.1);
 }
