@@ -56,12 +56,11 @@ static Vec3 lattice_point(const Lattice *l, int i, int j, int k)
 static bool inside_a_body(const Scene *scene, const Plan *plan, Vec3 point)
 {
     for (int b = 0; b < scene->body_count; b++) {
-        const BodyGeometry *g = &plan->bodies[b].geometry;
-        Quat back = quat_conjugate(g->attitude);
-        Vec3 local = quat_rotate(back, vec3_sub(point, g->origin));
+        const BodyPlan *body = &plan->bodies[b];
+        Quat back = quat_conjugate(body->start_attitude);
+        Vec3 local = quat_rotate(back, vec3_sub(point, body->start_origin));
         if (scene->domain.dimensions == 2) local.y = 0;
-        if (distance_grid_sample(&plan->bodies[b].distance, local) < 0.25 * scene->fluid.spacing)
-            return true;
+        if (distance_grid_sample(&body->distance, local) < 0.25 * scene->fluid.spacing) return true;
     }
     return false;
 }

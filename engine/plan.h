@@ -34,6 +34,8 @@ typedef struct BodyPlan {
     int particle_count;
     Vec3 *particles;       ///< geometry axes [particle_count][m]
     DistanceGrid distance; ///< for carving the water
+    Vec3 start_origin;     ///< of the geometry axes at t = 0, initial offset included [m]
+    Quat start_attitude;
 } BodyPlan;
 
 typedef struct LinePlan {

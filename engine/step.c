@@ -101,8 +101,7 @@ static bool advance_lines(const Scene *scene, State *state, double dt, const Lin
 
 static void move_ring(const void *context, double time, int count, const Vec3 *mean, Vec3 *place)
 {
-    for (int i = 0; i < count; i++)
-        place[i] = vec3_add(mean[i], waves_displacement(context, mean[i], time));
+    waves_ring_places(context, time, count, mean, place);
 }
 
 static void zone_velocity(const void *context, double time, int count, const float *x,
