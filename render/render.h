@@ -37,6 +37,7 @@ typedef struct ViewOptions {
     ColourField field;
     bool dark;    ///< sky and overlay colours for a dark page
     bool overlay; ///< time and wave as text, colour bars
+    int samples;  ///< 4 draws at twice the size and averages, for stills; 0 for live pictures
 } ViewOptions;
 
 ViewOptions view_options_default(void);

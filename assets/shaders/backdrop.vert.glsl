@@ -1,0 +1,8 @@
+out vec3 ray;
+
+void main()
+{
+    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    ray = forward.xyz + corner.x * right.xyz + corner.y * up.xyz;
+    gl_Position = vec4(corner, 1.0, 1.0);
+}

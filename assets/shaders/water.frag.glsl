@@ -1,0 +1,97 @@
+// Water from what lies behind it: the finished picture of everything opaque is looked up (bent a
+// little), dimmed over the path through the water, and the sky is laid over it by Fresnel's law.
+// Nothing is blended, so the nearest sheet of water wins whatever the order of drawing.
+in vec3 world;
+in vec3 normal;
+in float value;
+in float below;
+in float wet;
+out vec4 colour;
+
+uniform sampler2D opaque_colour;
+uniform sampler2D opaque_depth;
+uniform sampler2D maps;
+uniform sampler2D mirror;
+
+// Length of the ray inside the water's room.
+float way_out(vec3 from, vec3 ray)
+{
+    vec3 inverse = 1.0 / (ray + vec3(1e-7));
+    vec3 side = mix(box_min.xyz, box_max.xyz, step(0.0, ray));
+    vec3 reach = (side - from) * inverse;
+    if (ray.z > 0.0) reach.z = 1e6;
+    return max(min(reach.x, min(reach.y, reach.z)), 0.0);
+}
+
+// A dashed frame round the part of the basin that is not driven.
+float zone_frame(vec2 place)
+{
+    vec2 centre = 0.5 * (box_min.xy + box_max.xy);
+    vec2 reach = 0.5 * (box_max.xy - box_min.xy) - box_max.w;
+    vec2 beyond = abs(place - centre) - reach;
+    float edge = max(beyond.x, beyond.y);
+    float along = beyond.x > beyond.y ? place.y : place.x;
+    float dash = step(0.45, fract(along / (0.022 * range.z)));
+    return line_mask(edge, 0.8) * dash;
+}
+
+void main()
+{
+    if (wet < 0.5) discard;
+    bool wall = below >= 0.0;
+    vec3 n = normalize(normal);
+    vec3 ray = world - eye.xyz;
+    float here = length(ray);
+    ray /= here;
+    float facing = -dot(n, ray);
+    bool inside = facing < 0.0; // seen from under water
+    if (inside) {
+        n = -n;
+        facing = -facing;
+    }
+
+    vec2 screen = gl_FragCoord.xy * target.zw;
+    vec2 tilt = wall ? vec2(0.0) : n.xy;
+    vec2 bend = vec2(dot(tilt, right.xy), dot(tilt, up.xy)) * (-0.035 / forward.w);
+    vec2 bent = screen + bend;
+    float behind = depth_distance(texture(opaque_depth, bent).r, ray);
+    if (behind < here) {
+        bent = screen;
+        behind = depth_distance(texture(opaque_depth, bent).r, ray);
+    }
+    float path = inside ? here : max(min(behind - here, way_out(world, ray)), 0.0);
+    vec3 passed = exp(-water_deep.w * path * vec3(1.55, 0.85, 0.7));
+
+    float crest = clamp(0.5 + 0.5 * (world.z - box_max.z) / range.w, 0.0, 1.0);
+    float lit = dot(n, light.xyz);
+    vec3 body = mix(water_deep.rgb, water_shallow.rgb, wall ? 0.22 : 0.12 + 0.5 * crest * crest);
+    body *= wall ? 0.92 : 0.84 + 0.22 * lit;
+    vec3 through = texture(opaque_colour, bent).rgb * passed + body * (1.0 - passed);
+
+    vec3 bounce = reflect(ray, n);
+    vec3 up_bounce = vec3(bounce.xy, abs(bounce.z));
+    float fresnel = 0.02 + 0.98 * pow(clamp(1.0 - facing, 0.0, 1.0), 5.0);
+    vec3 reflected = sky(up_bounce);
+    if (!wall) {
+        vec4 ship = texture(mirror, screen + bend);
+        reflected = mix(reflected, ship.rgb, ship.a * 0.85);
+    }
+    float glint = wall ? 0.0 : pow(max(dot(up_bounce, sun.xyz), 0.0), 90.0) * 0.45;
+    float share = wall ? min(fresnel, 0.25) * 0.6 : fresnel * water_shallow.w;
+
+    if (field.w > 0.5 && !wall) {
+        float shown = field.w < 1.5 ? world.z - box_max.z : value;
+        float at = clamp((shown - field.x) / (field.y - field.x), 0.0, 1.0);
+        vec3 mapped = texture(maps, vec2(at * 0.996 + 0.002, field.z)).rgb * (0.80 + 0.26 * lit);
+        colour = vec4(mix(through, mapped, 0.86) + 0.25 * glint, 1.0);
+        colour.rgb = mix(colour.rgb, reflected, share * 0.25);
+    } else {
+        colour = vec4(mix(through, reflected, share) + glint * vec3(1.0, 0.97, 0.9), 1.0);
+    }
+    if (wall) {
+        float rim = line_mask(below, 1.1);
+        colour.rgb = mix(colour.rgb, vec3(0.93, 0.98, 1.0), 0.55 * rim);
+    } else if (box_max.w > 0.0) {
+        colour.rgb = mix(colour.rgb, vec3(1.0), 0.22 * zone_frame(world.xy));
+    }
+}
