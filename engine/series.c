@@ -1,0 +1,84 @@
+#include "series.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "probes.h"
+
+static const char *const BODY_COLUMNS[] = {
+    "surge_m",    "sway_m",     "heave_m",    "roll_deg",    "pitch_deg",   "yaw_deg",
+    "fluid_fx_n", "fluid_fy_n", "fluid_fz_n", "fluid_mx_nm", "fluid_my_nm", "fluid_mz_nm"};
+static const char *const LINE_COLUMNS[] = {"fairlead_tension_n", "anchor_tension_n",
+                                           "largest_tension_n", "touchdown_m"};
+static const char *const GAUGE_COLUMNS[] = {"elevation_m"};
+static const char *const PROBE_COLUMNS[] = {"pressure_pa"};
+
+#define COUNT_OF(array) (int)(sizeof(array) / sizeof *(array))
+
+static_assert(1 + SCENE_BODIES_MAX * COUNT_OF(BODY_COLUMNS) +
+                      SCENE_LINES_MAX * COUNT_OF(LINE_COLUMNS) + SCENE_GAUGES_MAX +
+                      SCENE_PRESSURE_PROBES_MAX <=
+                  SERIES_COLUMNS_MAX,
+              "every scene fits into a table");
+static_assert(SCENE_NAME_SIZE + 24 <= SERIES_COLUMN_SIZE, "every name fits into a column's");
+
+static void add_columns(SeriesTable *table, const char *owner, const char *const *columns,
+                        int count)
+{
+    for (int i = 0; i < count; i++)
+        snprintf(table->names[table->count++], SERIES_COLUMN_SIZE, "%s.%s", owner, columns[i]);
+}
+
+void series_table(const Scene *scene, SeriesTable *table)
+{
+    table->count = 0;
+    snprintf(table->names[table->count++], SERIES_COLUMN_SIZE, "t_s");
+    for (int i = 0; i < scene->body_count; i++)
+        add_columns(table, scene->bodies[i].name, BODY_COLUMNS, COUNT_OF(BODY_COLUMNS));
+    for (int i = 0; i < scene->line_count; i++)
+        add_columns(table, scene->lines[i].name, LINE_COLUMNS, COUNT_OF(LINE_COLUMNS));
+    for (int i = 0; i < scene->gauge_count; i++)
+        add_columns(table, scene->gauges[i].name, GAUGE_COLUMNS, COUNT_OF(GAUGE_COLUMNS));
+    for (int i = 0; i < scene->pressure_probe_count; i++)
+        add_columns(table, scene->pressure_probes[i].name, PROBE_COLUMNS, COUNT_OF(PROBE_COLUMNS));
+}
+
+static double *add_vector(double *row, Vec3 v)
+{
+    row[0] = v.x;
+    row[1] = v.y;
+    row[2] = v.z;
+    return row + 3;
+}
+
+static double *sample_body(const Body *body, double *row)
+{
+    BodyMotion motion = body_motion(body);
+    for (int i = 0; i < 6; i++)
+        *row++ = i < 3 ? motion.value[i] : motion.value[i] * 180 / PI;
+    row = add_vector(row, body->fluid_force);
+    return add_vector(row, body->fluid_moment);
+}
+
+static double *sample_line(const Line *line, double *row)
+{
+    *row++ = line->tension[line->node_count - 2];
+    *row++ = line->tension[0];
+    *row++ = line->largest_tension;
+    *row++ = line->touchdown;
+    return row;
+}
+
+void series_sample(const Scene *scene, const Plan *plan, const State *state, double *row)
+{
+    *row++ = state->time;
+    for (int i = 0; i < scene->body_count; i++)
+        row = sample_body(&state->bodies[i], row);
+    for (int i = 0; i < scene->line_count; i++)
+        row = sample_line(&state->lines[i], row);
+    for (int i = 0; i < scene->gauge_count; i++)
+        *row++ = probe_elevation(scene, state, i);
+    for (int i = 0; i < scene->pressure_probe_count; i++)
+        *row++ = probe_pressure(scene, state, i);
+}
