@@ -104,6 +104,7 @@ TEST(health_is_json_whatever_its_message_and_however_little_room)
         memset(line, 'x', sizeof line);
         journal_format_health(3.25, message, line, size);
         CHECK((int)strlen(line) < size);
+        CHECK(strpbrk(line, "\n\t") == NULL); // one line
         cJSON *json = cJSON_Parse(line);
         CHECK(json != NULL);
         CHECK(number(json, "time_s") == 3.25);
