@@ -2,9 +2,11 @@
 
 export type Range = readonly [number, number];
 
-/** Direction of travel under a point (right, up) from the dial's centre, in the range if it can be. */
-export function headingAt(right: number, up: number, limits: Range): number {
-  return intoRange((Math.atan2(up, right) * 180) / Math.PI, limits);
+/** Direction of travel under a point (right, up) from the dial's centre, in whole steps, in the range if it
+ * can be. */
+export function headingAt(right: number, up: number, limits: Range, step: number): number {
+  const degrees = (Math.atan2(up, right) * 180) / Math.PI;
+  return intoRange(Math.round(degrees / step) * step, limits);
 }
 
 /** The same direction, turned by whole rounds into the range; else the nearer end of the range. */

@@ -1,6 +1,6 @@
 /** One uPlot chart of a panel: axes, value range, marks of changes as elements over the plot. */
 import uPlot from "uplot";
-import { significant } from "./format.ts";
+import { digitsOfStep, fixed, significant } from "./format.ts";
 import { groupMarks, type Mark } from "./markers.ts";
 import type { Palette } from "./palette.ts";
 import type { Panel } from "./panels.ts";
@@ -155,7 +155,6 @@ function labelOf(text: string, index: number, fraction: number): HTMLElement {
 }
 
 function axisValues(_chart: uPlot, splits: number[]): string[] {
-  const step = Math.abs((splits[1] ?? 0) - (splits[0] ?? 0)) || 1;
-  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return splits.map((split) => (Math.abs(split) < 1e6 ? split.toFixed(digits).replace("-", "−") : significant(split)));
+  const digits = digitsOfStep(Math.abs((splits[1] ?? 0) - (splits[0] ?? 0)));
+  return splits.map((split) => (Math.abs(split) < 1e6 ? fixed(split, digits) : significant(split)));
 }

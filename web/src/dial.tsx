@@ -3,7 +3,7 @@
 import { useRef } from "preact/hooks";
 import { arcPath, headingAt, onCircle, turnedBy, type Range } from "./angles.ts";
 import { wrapDegrees } from "./camera.ts";
-import { fixed } from "./format.ts";
+import { dusted, fixed } from "./format.ts";
 
 type Props = {
   asked: number;
@@ -48,7 +48,7 @@ export function Dial({ asked, now, limits, disabled, onTurn }: Props) {
     if (!box) return;
     const right = event.clientX - (box.left + box.width / 2);
     const up = box.top + box.height / 2 - event.clientY;
-    if (Math.hypot(right, up) > 4) onTurn(Math.round(headingAt(right, up, limits)));
+    if (Math.hypot(right, up) > 4) onTurn(dusted(headingAt(right, up, limits, 1)));
   };
   const press = (event: PointerEvent): void => {
     if (disabled || event.button !== 0) return;
@@ -62,7 +62,7 @@ export function Dial({ asked, now, limits, disabled, onTurn }: Props) {
     const turned = disabled ? null : keyTurn(event, asked, limits);
     if (turned === null) return;
     event.preventDefault();
-    onTurn(turned);
+    onTurn(dusted(turned));
   };
   const known = Number.isFinite(asked);
   return (
@@ -74,9 +74,9 @@ export function Dial({ asked, now, limits, disabled, onTurn }: Props) {
       tabindex={disabled ? -1 : 0}
       aria-label="Wave heading, direction of travel"
       aria-disabled={disabled}
-      aria-valuemin={limits[0]}
-      aria-valuemax={limits[1]}
-      aria-valuenow={known ? asked : limits[0]}
+      aria-valuemin={dusted(limits[0])}
+      aria-valuemax={dusted(limits[1])}
+      aria-valuenow={dusted(known ? asked : limits[0])}
       aria-valuetext={known ? `${fixed(asked, 0)} degrees asked, ${fixed(now, 0)} now` : "unknown"}
       onPointerDown={press}
       onPointerMove={drag}

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bytes, fixed, grouped, percent, shortTime, significant, title } from "./format.ts";
+import { bytes, digitsOfStep, dusted, fixed, grouped, percent, shortTime, significant, title } from "./format.ts";
 
 test("fixed digits never show a minus zero", () => {
   assert.equal(fixed(-0.0001, 2), "0.00");
@@ -12,6 +12,15 @@ test("significant digits suit the magnitude", () => {
   assert.equal(significant(4123.4), "4123");
   assert.equal(significant(0.01234), "0.0123");
   assert.equal(significant(1.2e-7), "1.20e−7");
+});
+
+test("an axis has as many digits as its ticks need", () => {
+  assert.deepEqual([100, 5, 2.5, 0.5, 0.25, 0.1, 0.02, 0].map(digitsOfStep), [0, 0, 1, 1, 2, 1, 2, 0]);
+});
+
+test("dust of a conversion is taken off, not-a-number stays", () => {
+  assert.equal(dusted(180.00000000000003), 180);
+  assert.equal(dusted(NaN), NaN);
 });
 
 test("counts, times, bytes and shares are readable", () => {

@@ -19,6 +19,19 @@ export function significant(value: number, digits = 3): string {
   return fixed(value, Math.max(0, digits - 1 - magnitude));
 }
 
+/** Digits after the point that an axis needs whose ticks are so far apart: 2.5 → 1. */
+export function digitsOfStep(step: number): number {
+  if (!(step > 0)) return 0;
+  const first = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const scaled = step * 10 ** first;
+  return Math.abs(scaled - Math.round(scaled)) < 1e-6 * scaled ? first : first + 1;
+}
+
+/** Without the dust of a unit's conversion: 180.00000000000003 → 180. */
+export function dusted(value: number): number {
+  return Number(value.toFixed(6));
+}
+
 const THIN_SPACE = "\u2009";
 
 /** 48213 → "48 213" with thin spaces. */

@@ -24,12 +24,14 @@ function metersOf(status: Status | null, particles: number): Meter[] {
 export function Meters({ session }: { session: Session }) {
   const status = session.status.value;
   const health = status?.health;
+  const lost = session.link.value.state === "lost";
+  const lamp = lost ? "" : status?.state === "failed" ? "failed" : (health?.status ?? "");
   return (
     <section class="meters" aria-label="State of the run">
       <dl>
-        <div class={`meter lamp ${status ? (status.state === "failed" ? "failed" : (health?.status ?? "")) : ""}`} title={health?.message || "Health of the physics"}>
-          <dt>{status ? STATE_NAMES[status.state] : "Health"}</dt>
-          <dd>{health ? HEALTH_NAMES[health.status] : "–"}</dd>
+        <div class={`meter lamp ${lamp}`} title={health?.message || "Health of the physics"}>
+          <dt>{lost ? "Connection" : status ? STATE_NAMES[status.state] : "Health"}</dt>
+          <dd>{lost ? "Lost" : health ? HEALTH_NAMES[health.status] : "–"}</dd>
         </div>
         {metersOf(status, session.hello.value?.particles ?? NaN).map(({ label, value, unit, hint }) => (
           <div class="meter" key={label} title={hint}>

@@ -1,6 +1,6 @@
 /** The strip charts: one time axis and one cursor for all panels, marks where something was changed. */
 import { effect, signal, useSignal } from "@preact/signals";
-import { useEffect, useMemo } from "preact/hooks";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import { saveFile } from "./download.ts";
 import { fixed } from "./format.ts";
 import { Icon } from "./icons.tsx";
@@ -22,7 +22,7 @@ export function Plots({ session }: { session: Session }) {
     <section class="plots" aria-labelledby="plots-title">
       <div class="plots-head">
         <h2 id="plots-title">
-          Series{cursor.value !== null && <span class="hint"> at {fixed(cursor.value, 2)} s</span>}
+          {cursor.value === null ? "Series" : `At ${fixed(cursor.value, 2)} s`}
         </h2>
         <WindowChoice />
         <PanelChoice panels={panels} />
@@ -94,10 +94,17 @@ function WindowChoice() {
 }
 
 function PanelChoice({ panels }: { panels: readonly Panel[] }) {
+  const menu = useRef<HTMLDetailsElement>(null);
+  const close = (): void => {
+    if (menu.current) menu.current.open = false;
+  };
+  const leave = (event: FocusEvent): void => {
+    if (!(event.relatedTarget instanceof Node && menu.current?.contains(event.relatedTarget))) close();
+  };
   return (
-    <details class="menu">
+    <details class="menu" ref={menu} onFocusOut={leave} onKeyDown={(event) => event.key === "Escape" && close()}>
       <summary>Panels</summary>
-      <div class="menu-body">
+      <div class="menu-body" tabindex={-1}>
         {panels.map((panel) => (
           <label key={panel.id}>
             <input

@@ -1,7 +1,7 @@
 /** The sea: height, period and heading. What is asked acts at once; what is now stands beside it. */
 import { useEffect, useRef } from "preact/hooks";
 import { Dial } from "./dial.tsx";
-import { fixed } from "./format.ts";
+import { dusted, fixed } from "./format.ts";
 import type { Limits, WaveKey } from "./protocol.ts";
 import type { Session } from "./session.ts";
 
@@ -119,7 +119,7 @@ function QuantityRow({ session, quantity, limits }: RowProps) {
 
 function roundedWithin(value: number, step: number, min: number, max: number): number {
   const rounded = Math.round(value / step) * step;
-  return Number(Math.min(max, Math.max(min, rounded)).toFixed(6));
+  return dusted(Math.min(max, Math.max(min, rounded)));
 }
 
 const KEY_DIRECTIONS: Readonly<Record<string, number>> = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 };
