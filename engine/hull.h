@@ -78,8 +78,8 @@ bool body_geometry_create(const Scene *scene, int index, Arena *arena, BodyGeome
 
 /// Dummy particles that fill the hull to a depth of `thickness` below its skin, on the layers
 /// dp/2, 3dp/2, … so that the skin lies midway between fluid and dummies. Boxes are filled exactly;
-/// other hulls on a lattice whose outermost points are placed so that the particles' volume
-/// matches.
+/// other hulls on a lattice whose outermost points are chosen, layer by layer, so that the
+/// particles displace what the hull does. Some of these may lie up to 0.4 dp outside the skin.
 /// @param dimensions  2: particles on y = 0 only
 /// @param points      taken from the arena, geometry axes [count][m]
 /// @param count       number of points

@@ -154,7 +154,7 @@ static bool balance(const Setting *s, BodyGeometry *g, Error *error)
     if (s->flat) g->centre_of_gravity.y = 0;
     Vec3 r = b->radii_of_gyration;
     double six[6];
-    const char *key = "inertia_kg_m2";
+    const char *key = "inertia_kgm2";
     bool by_inertia = !isnan(b->inertia[0]), by_radii = !isnan(r.x);
     if (by_radii && !by_inertia) key = "radii_of_gyration_m";
     double scale = g->mass / g->properties.volume;

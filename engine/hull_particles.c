@@ -13,6 +13,7 @@
 
 static const double CUT_OFF_RANGE = 0.4; ///< of dp: an aligned layer (at dp/2) is never lost
 static const double TIE = 1e-6;          ///< of dp: points as deep as each other go together
+static const double OWED_MOST = 2;       ///< points: what a layer may pass on to the next
 
 /// Eight vertices, all at the corners of the bounding box.
 static bool mesh_is_box(const TriangleMesh *mesh, const MeshProperties *box)
@@ -102,11 +103,12 @@ static int compare_floats(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-/// Signed distance below which points count as inside, so that there are `target` of them as nearly
-/// as the ties between equally deep points allow.
-/// @param near  scratch [size], points within the range of the cut-off
+/// Signed distance below which the points of one layer count as inside, so that there are `target`
+/// of them as nearly as the ties between equally deep points allow.
+/// @param near    scratch [size], points within the range of the cut-off
+/// @param chosen  how many they are
 static double choose_cut_off(const float *distance, size_t size, double target, double spacing,
-                             float *near)
+                             float *near, double *chosen)
 {
     double range = CUT_OFF_RANGE * spacing;
     size_t inside = 0, near_count = 0;
@@ -118,17 +120,61 @@ static double choose_cut_off(const float *distance, size_t size, double target, 
     }
     qsort(near, near_count, sizeof *near, compare_floats);
     double best = fabs((double)inside - target), cut = -range;
-    size_t chosen = inside;
+    *chosen = (double)inside;
     for (size_t k = 0; k < near_count; k++) {
         bool tied = k + 1 < near_count && near[k + 1] - near[k] < TIE * spacing;
         double miss = fabs((double)(inside + k + 1) - target);
         if (tied || miss >= best) continue;
         best = miss;
-        chosen = inside + k + 1;
+        *chosen = (double)(inside + k + 1);
         cut = k + 1 < near_count ? 0.5 * ((double)near[k] + near[k + 1]) : range;
     }
-    // a sheet thinner than a particle still needs its one layer
-    return (double)chosen < 0.5 * target || !chosen ? range : cut;
+    return cut;
+}
+
+/// Cut-off of every layer, from the keel up, so that the points up to each layer displace what the
+/// hull does up to there: buoyancy is then right at any draft, not only when it is all under.
+/// @param cell  volume of the hull that one point stands for [m^3]
+/// @param cuts  filled [count z][m]
+static void cut_layers(const TriangleMesh *mesh, const Lattice *lattice, const float *distance,
+                       double cell, float *near, double *cuts)
+{
+    size_t layer = (size_t)lattice->count[0] * (size_t)lattice->count[1];
+    double below = 0, owed = 0, total = 0;
+    for (int z = 0; z < lattice->count[2]; z++) {
+        double level = lattice->min.z + (z + 0.5) * lattice->pitch, chosen;
+        double volume = mesh_submerged(mesh, vec3(0, 0, 0), quat(1, 0, 0, 0), level).volume;
+        double target = (volume - below) / cell + owed;
+        cuts[z] = choose_cut_off(distance + (size_t)z * layer, layer, target, lattice->pitch, near,
+                                 &chosen);
+        owed = maxd(-OWED_MOST, mind(OWED_MOST, target - chosen));
+        total += chosen;
+        below = volume;
+    }
+    // a sheet thinner than half a particle still needs its one layer
+    if (total >= 0.5 * below / cell && total > 0) return;
+    for (int z = 0; z < lattice->count[2]; z++)
+        cuts[z] = CUT_OFF_RANGE * lattice->pitch;
+}
+
+/// Keep the points between the cut-off and the depth of the shell. @param points  NULL only counts
+static int keep_shell(const Lattice *lattice, const float *distance, const double *cuts,
+                      double thickness, Vec3 *points)
+{
+    double shell = -(thickness + TIE * lattice->pitch);
+    int found = 0;
+    size_t i = 0;
+    for (int z = 0; z < lattice->count[2]; z++)
+        for (int y = 0; y < lattice->count[1]; y++)
+            for (int x = 0; x < lattice->count[0]; x++, i++) {
+                if (!(distance[i] < cuts[z] && distance[i] >= shell)) continue;
+                if (points)
+                    points[found] = vec3(lattice->min.x + x * lattice->pitch,
+                                         lattice->min.y + y * lattice->pitch,
+                                         lattice->min.z + z * lattice->pitch);
+                found++;
+            }
+    return found;
 }
 
 static bool lattice_particles(const TriangleMesh *mesh, const MeshProperties *box, double spacing,
@@ -136,43 +182,32 @@ static bool lattice_particles(const TriangleMesh *mesh, const MeshProperties *bo
                               Vec3 **points, int *count, Error *error)
 {
     Lattice lattice = hull_lattice(box, spacing, dimensions);
+    Vec3 extent = vec3_sub(box->max, box->min);
     size_t size;
     if (!lattice_size(&lattice, &size))
-        return error_set(
-            error, ERROR_INPUT, "a hull of %g x %g x %g m is too large for particles of %g m",
-            box->max.x - box->min.x, box->max.y - box->min.y, box->max.z - box->min.z, spacing);
+        return error_set(error, ERROR_INPUT,
+                         "a hull of %g x %g x %g m is too large for particles of %g m", extent.x,
+                         extent.y, extent.z, spacing);
     float *distance = arena_take(scratch, size, sizeof *distance, "hull lattice", error);
     float *near = arena_take(scratch, size, sizeof *near, "hull lattice", error);
-    if (!distance || !near) return false;
-    Vec3 extent = vec3_sub(box->max, box->min);
+    double *cuts =
+        arena_take(scratch, (size_t)lattice.count[2], sizeof *cuts, "hull lattice", error);
+    if (!distance || !near || !cuts) return false;
     double deepest = mind(extent.x, extent.z); // nothing lies deeper than half of this
     if (dimensions == 3) deepest = mind(deepest, extent.y);
     double band = mind(thickness, 0.5 * deepest) + 2 * spacing;
     TRY(lattice_signed_distance(mesh, &lattice, band, dimensions == 2, distance, error));
-    double target = dimensions == 2 ? box->volume / extent.y / (spacing * spacing)
-                                    : box->volume / (spacing * spacing * spacing);
-    double cut = choose_cut_off(distance, size, target, spacing, near);
-    double shell = -(thickness + TIE * spacing);
-    int found = 0;
-    for (size_t i = 0; i < size; i++)
-        found += distance[i] < cut && distance[i] >= shell;
-    if (!found)
+    double across = dimensions == 2 ? extent.y : spacing;
+    cut_layers(mesh, &lattice, distance, spacing * spacing * across, near, cuts);
+    *count = keep_shell(&lattice, distance, cuts, thickness, NULL);
+    if (!*count)
         return error_set(error, ERROR_INPUT,
                          "a hull of %g x %g x %g m holds no particle of %g m; a spacing below its "
                          "thickness is needed",
-                         box->max.x - box->min.x, box->max.y - box->min.y, box->max.z - box->min.z,
-                         spacing);
-    *points = arena_take(arena, (size_t)found, sizeof **points, "body particles", error);
+                         extent.x, extent.y, extent.z, spacing);
+    *points = arena_take(arena, (size_t)*count, sizeof **points, "body particles", error);
     if (!*points) return false;
-    *count = 0;
-    size_t i = 0;
-    for (int z = 0; z < lattice.count[2]; z++)
-        for (int y = 0; y < lattice.count[1]; y++)
-            for (int x = 0; x < lattice.count[0]; x++, i++)
-                if (distance[i] < cut && distance[i] >= shell)
-                    (*points)[(*count)++] =
-                        vec3(lattice.min.x + x * spacing, lattice.min.y + y * spacing,
-                             lattice.min.z + z * spacing);
+    keep_shell(&lattice, distance, cuts, thickness, *points);
     return true;
 }
 

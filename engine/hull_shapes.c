@@ -213,7 +213,7 @@ static bool polygon_create(const BodyScene *body, double breadth, const char *wh
                            TriangleMesh *mesh, Error *error)
 {
     if (body->polygon_count < 3 || body->polygon_count > SCENE_POLYGON_MAX)
-        return error_set(error, ERROR_INPUT, "%s.polygon_m: %d corners; 3 to %d are needed", where,
+        return error_set(error, ERROR_INPUT, "%s.points_m: %d corners; 3 to %d are needed", where,
                          body->polygon_count, SCENE_POLYGON_MAX);
     double section[SCENE_POLYGON_MAX][2];
     int count = polygon_section(body, section);
@@ -222,13 +222,13 @@ static bool polygon_create(const BodyScene *body, double breadth, const char *wh
             if (segments_cross(section[i], section[(i + 1) % count], section[j],
                                section[(j + 1) % count]))
                 return error_set(error, ERROR_INPUT,
-                                 "%s.polygon_m: its sides cross near (%g, %g) m; a simple polygon "
+                                 "%s.points_m: its sides cross near (%g, %g) m; a simple polygon "
                                  "is needed",
                                  where, section[i][1], section[i][0]);
     int triangles[SCENE_POLYGON_MAX][3];
     if (!cut_ears((const double(*)[2])section, count, triangles))
         return error_set(error, ERROR_INPUT,
-                         "%s.polygon_m: encloses no area or touches itself; a simple polygon is "
+                         "%s.points_m: encloses no area or touches itself; a simple polygon is "
                          "needed",
                          where);
     TRY(mesh_allocate(mesh, 2 * count, 2 * count + 2 * (count - 2), arena, error));
@@ -309,7 +309,7 @@ static bool shape_in_2d(const BodyScene *body, const char *where, Error *error)
                    (body->shape == BODY_CYLINDER && body->axis == 1);
     return section || error_set(error, ERROR_INPUT,
                                 "%s.shape: has no x-z section in a 2-D domain; box, polygon, or "
-                                "cylinder with axis 1 are accepted",
+                                "cylinder with axis \"y\" are accepted",
                                 where);
 }
 
@@ -335,8 +335,8 @@ bool mesh_create(const BodyScene *body, int dimensions, const char *where, Arena
         TRY(positive(body->radius, where, "radius_m", error));
         if (!flat) TRY(positive(body->length, where, "length_m", error));
         if (body->axis < 0 || body->axis > 2)
-            return error_set(error, ERROR_INPUT, "%s.axis: %d; 0 (x), 1 (y) or 2 (z)", where,
-                             body->axis);
+            return error_set(error, ERROR_INPUT, "%s.axis: %d; \"x\" (0), \"y\" (1) or \"z\" (2)",
+                             where, body->axis);
         return cylinder_create(body->radius, flat ? BREADTH_2D : body->length, body->axis, arena,
                                mesh, error);
     case BODY_POLYGON:

@@ -160,7 +160,7 @@ TEST(balance_is_homogeneous_or_by_radii_or_as_given)
     g = create();
     CHECK(g.inertia[0][1] == 0.1 && g.inertia[2][0] == 0.2 && g.inertia[1][2] == 0.3);
     body->inertia[3] = 1.5;
-    refuse("bodies[0].inertia_kg_m2");
+    refuse("bodies[0].inertia_kgm2");
     body->inertia[0] = NAN;
     body->radii_of_gyration.y = 0;
     refuse("bodies[0].radii_of_gyration_m");

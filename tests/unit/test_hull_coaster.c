@@ -119,3 +119,34 @@ TEST(particles_of_the_coaster_are_symmetric_and_match_its_volume)
         arena_destroy(&arena);
     }
 }
+
+/// Part of a particle's cell that lies below a level.
+static double wet_part(double z, double level, double spacing)
+{
+    return maxd(0, mind(1, (level - z) / spacing + 0.5));
+}
+
+TEST(particles_below_the_water_displace_what_the_coaster_does)
+{
+    for (double spacing = 0.03; spacing < 0.12; spacing += 0.01) {
+        TriangleMesh mesh = load();
+        Vec3 *points;
+        int count;
+        Error error = {0};
+        CHECK(hull_particles(&mesh, spacing, 10, 3, &arena, &points, &count, &error));
+        for (double draft = 0.25; draft < 0.40; draft += 0.05) {
+            const double inertia[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+            Hydrostatics h = mesh_hydrostatics(&mesh, vec3(0, 0, -draft), quat(1, 0, 0, 0),
+                                               CENTRE_OF_GRAVITY, 1, inertia, 0, 1000, 9.81);
+            double volume = 0, moment = 0;
+            for (int i = 0; i < count; i++) {
+                double wet = wet_part(points[i].z, draft, spacing) * pow(spacing, 3);
+                volume += wet;
+                moment += wet * points[i].x;
+            }
+            CHECK_NEAR(volume / h.displacement, 1, 0.015);
+            CHECK_NEAR(moment / volume, h.centre_of_buoyancy.x, 0.15 * spacing);
+        }
+        arena_destroy(&arena);
+    }
+}

@@ -202,7 +202,7 @@ TEST(first_layer_lies_half_a_spacing_below_the_skin_on_average)
         }
     }
     CHECK_NEAR(sum / outer, 0.5, 0.05);
-    CHECK(worst > -0.1);
+    CHECK(worst > -0.4); // the cut-off's range
     arena_destroy(&arena);
 }
 

@@ -157,9 +157,9 @@ TEST(senseless_shapes_are_refused_by_key)
         const BodyScene *body;
         int dimensions;
         const char *key;
-    } cases[] = {{&bow_tie, 3, "bodies[7].polygon_m"}, {&line, 3, "bodies[7].polygon_m"},
-                 {&box, 3, "bodies[7].size_m[1]"},     {&sphere, 3, "bodies[7].radius_m"},
-                 {&cylinder, 3, "bodies[7].axis"},     {&wigley, 3, "bodies[7].draft_design_m"},
+    } cases[] = {{&bow_tie, 3, "bodies[7].points_m"}, {&line, 3, "bodies[7].points_m"},
+                 {&box, 3, "bodies[7].size_m[1]"},    {&sphere, 3, "bodies[7].radius_m"},
+                 {&cylinder, 3, "bodies[7].axis"},    {&wigley, 3, "bodies[7].draft_design_m"},
                  {&ball, 2, "bodies[7].shape"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         TriangleMesh mesh;
