@@ -1,0 +1,91 @@
+#include "summary.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+static void write_health(Json *json, const SummaryInfo *info)
+{
+    static const char *const words[] = {"good", "recovered", "failed"};
+    const HealthRecord *health = &info->state->health;
+    bool failed = info->how == EXIT_BY_PHYSICS;
+    json_object(json, "health");
+    json_string(json, "status", failed ? "failed" : words[health->status]);
+    json_string(json, "message", failed ? info->message : health->message);
+    json_integer(json, "recoveries", health->recoveries);
+    json_object_end(json);
+}
+
+static void write_effects(Json *json, const SummaryInfo *info)
+{
+    const State *state = info->state;
+    double total = state->base_seconds;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        total += state->effect_seconds[i];
+    json_array(json, "effects");
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        const EffectPlan *effect = &info->plan->effects[i];
+        if (!effect->active) continue;
+        json_object(json, NULL);
+        json_string(json, "name", effect->name);
+        json_string(json, "kind", effect->kind == EFFECT_PAIR ? "pair" : "pass");
+        json_integer(json, "bytes", (int64_t)effect->bytes);
+        json_number(json, "wall_s", state->effect_seconds[i]);
+        json_number(json, "share", total > 0 ? state->effect_seconds[i] / total : 0);
+        json_object_end(json);
+    }
+    json_array_end(json);
+}
+
+void summary_format(Text *text, const SummaryInfo *info)
+{
+    static const char *const reasons[] = {"until reached", "interrupted", "physics", "error"};
+    const Plan *plan = info->plan;
+    const State *state = info->state;
+    int64_t particles = (int64_t)plan->fluid_count + plan->wall_count + plan->body_particle_count;
+    char hash[20];
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)info->scene->hash);
+    Json json = json_begin(text);
+    json_object(&json, NULL);
+    json_string(&json, "version", FAIRLEAD_VERSION);
+    json_string(&json, "case", info->scene->name);
+    json_string(&json, "case_hash", hash);
+    json_string(&json, "backend", plan->backend);
+    json_string(&json, "variant", plan->variant);
+    json_integer(&json, "threads", plan->options.threads);
+    json_integer(&json, "particles", particles);
+    json_integer(&json, "fluid_particles", plan->fluid_count);
+    json_number(&json, "spacing_m", info->scene->fluid.spacing);
+    json_integer(&json, "steps", state->step);
+    json_number(&json, "simulated_s", state->time);
+    json_number(&json, "wall_s", info->wall);
+    json_number(&json, "stepping_wall_s", state->wall_time);
+    json_number(&json, "particle_steps_per_s",
+                info->wall > 0 ? (double)particles * (double)state->step / info->wall : NAN);
+    json_object(&json, "time_step_s");
+    json_number(&json, "smallest", state->smallest_step);
+    json_number(&json, "mean", state->step > 0 ? state->time / (double)state->step : NAN);
+    json_number(&json, "largest", state->largest_step);
+    json_object_end(&json);
+    json_number(&json, "largest_density_error", state->largest_density_error);
+    write_health(&json, info);
+    write_effects(&json, info);
+    json_integer(&json, "frames", info->frame_count);
+    json_string(&json, "exit", reasons[info->how]);
+    json_string(&json, "exit_message", info->message);
+    json_object_end(&json);
+    text_append(text, "\n", 1);
+}
+
+bool summary_write(const char *folder, const SummaryInfo *info, Error *error)
+{
+    Text text = {0};
+    char path[SCENE_PATH_SIZE + 32];
+    snprintf(path, sizeof path, "%s/summary.json", folder);
+    summary_format(&text, info);
+    FILE *file = fopen(path, "w");
+    bool good = file && !text.failed && fwrite(text.data, 1, text.length, file) == text.length;
+    if (file && fclose(file)) good = false;
+    text_destroy(&text);
+    return good || error_set(error, ERROR_SYSTEM, "%s: cannot write: %s", path, strerror(errno));
+}
