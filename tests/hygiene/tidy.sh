@@ -26,8 +26,10 @@ common=$({
     cat "$build/tidy/compile_commands.json"
     echo "$checks"
 } | sha256sum | cut -d' ' -f1)
-# omp.h is gcc's; it comes after clang's own headers.
-gcc_headers=$(gcc -print-file-name=include)
+# omp.h is gcc's; alone in a folder, for gcc's stdatomic.h must not stand in for clang's.
+gcc_headers=$build/tidy/gcc
+mkdir -p "$gcc_headers"
+ln -sf "$(gcc -print-file-name=include)/omp.h" "$gcc_headers/omp.h"
 
 look_at() {
     local file=$1 stamp digest
