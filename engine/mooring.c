@@ -138,7 +138,7 @@ bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const Water
     line->scene = scene;
     line->node_count = n;
     line->segment_length = scene->length / scene->segments;
-    line->stepper = LINE_STEPPER_RK2;
+    line->stepper = LINE_STEPPER_BDF2;
     line->position = arena_take(arena, (size_t)n, sizeof(Vec3), where, error);
     line->velocity = arena_take(arena, (size_t)n, sizeof(Vec3), where, error);
     LineWork *work = arena_take(arena, 1, sizeof *work, where, error);
@@ -149,6 +149,8 @@ bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const Water
     TRY(line_statics(scene, anchor, fairlead, water, where, line->position,
                      statics ? statics : &unused, error));
 
+    line->workspace = work;
+    TRY(line_bdf2_create(line, arena, where, error));
     work->constants = line_constants(scene, water);
     work->node_count = n;
     line->step_limit = explicit_limit(&work->constants);
@@ -158,7 +160,6 @@ bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const Water
         work->share[i] = end ? 0.5 : 1;
         work->bed_share[i] = end ? 0 : 1;
     }
-    line->workspace = work;
     line_settle(line, water);
     return true;
 }
@@ -238,20 +239,27 @@ static void sample_water(Line *line, const WaterField *water, double time, doubl
     }
 }
 
+Vec3 line_end_direction(const LineWork *work, const Vec3 *x, int node, int inner, double *wet)
+{
+    const double *elevation = work->water_now[6];
+    Vec3 d = vec3_sub(x[inner], x[node]);
+    double size = vec3_norm(d);
+    *wet = 0.5 * line_wet_fraction(elevation[node] - x[node].z, elevation[inner] - x[inner].z,
+                                   work->constants.radius);
+    return vec3_scale(d, size > 0 ? 1 / size : 0);
+}
+
 /// The line's pull on what holds an end: mean force on its half segment less what that half
 /// segment's own (and added) mass takes up.
-static Vec3 end_pull(const LineWork *work, int node, Vec3 impulse, const EndPath *path,
+static Vec3 end_pull(const Line *line, int node, int inner, Vec3 impulse, const EndPath *path,
                      double duration)
 {
-    Vec3 d = vec3(work->dx[node] + work->dx[node + 1], work->dy[node] + work->dy[node + 1],
-                  work->dz[node] + work->dz[node + 1]);
-    double norm = vec3_norm(d);
-    Vec3 q = vec3_scale(d, norm > 0 ? 1 / norm : 0);
-    double wet = 0.5 * (work->wet[node] + work->wet[node + 1]);
+    const LineWork *work = line->workspace;
+    double wet;
+    Vec3 q = line_end_direction(work, line->position, node, inner, &wet);
     Vec3 gained = vec3_sub(path->velocity[1], path->velocity[0]);
-    Vec3 kept =
-        line_inertia(line_mass_normal(&work->constants, work->share[node], wet),
-                     line_mass_tangential(&work->constants, work->share[node], wet), q, gained);
+    Vec3 kept = line_inertia(line_mass_normal(&work->constants, 0.5, wet),
+                             line_mass_tangential(&work->constants, 0.5, wet), q, gained);
     return vec3_scale(vec3_sub(impulse, kept), 1 / duration);
 }
 
@@ -268,21 +276,47 @@ static void line_load(Line *line)
     }
 }
 
-static void line_store(Line *line, const LineSpan *span)
+static void line_store(Line *line)
 {
     LineWork *work = line->workspace;
     const LineNodes *now = &work->now;
-    int last = line->node_count - 1;
-    for (int i = 0; i <= last; i++) {
+    for (int i = 0; i < line->node_count; i++) {
         line->position[i] = vec3(now->x[i], now->y[i], now->z[i]);
         line->velocity[i] = vec3(now->u[i], now->v[i], now->w[i]);
     }
-    memcpy(line->tension, work->tension + 1, (size_t)last * sizeof(double));
-    for (int i = 1; i <= last; i++)
+    line_water_at(work, 1);
+    line_segments(work, now);
+    memcpy(line->tension, work->tension + 1, (size_t)(line->node_count - 1) * sizeof(double));
+    for (int i = 1; i < line->node_count; i++)
         line->largest_tension = maxd(line->largest_tension, work->peak[i]);
-    line->touchdown = touchdown_length(line, work->constants.bed);
-    line->anchor_force = end_pull(work, 0, work->end_force[0], span->anchor, span->duration);
-    line->fairlead_force = end_pull(work, last, work->end_force[1], span->fairlead, span->duration);
+}
+
+/// The explicit step works on one array per component and leaves no history. @return sick node or
+/// -1
+static int advance_rk2(Line *line, const LineSpan *span, double *sick_time)
+{
+    LineWork *work = line->workspace;
+    line_load(line);
+    line_hold_ends(&work->now, line->node_count - 1, span, 0);
+    memset(work->peak, 0, (size_t)(line->node_count + 1) * sizeof(double));
+    int sick = line_step_rk2(line, span, sick_time);
+    line_store(line);
+    line_bdf2_forget(line);
+    return sick;
+}
+
+static bool report_sickness(const Line *line, int sick, double time, Error *error)
+{
+    Vec3 x = line->position[sick], v = line->velocity[sick];
+    bool explicit_step = line->stepper == LINE_STEPPER_RK2;
+    return error_set(error, ERROR_PHYSICS,
+                     "line %s: node %d at t = %.6g s: position (%.4g, %.4g, %.4g) m, velocity "
+                     "(%.4g, %.4g, %.4g) m/s; accepted: %s, %.4g m/s (sub-step limit %.3g s)",
+                     line->scene->name, sick, time, x.x, x.y, x.z, v.x, v.y, v.z,
+                     explicit_step ? "finite and slower than sound in the line"
+                                   : "an implicit step that has a solution; sound in the line",
+                     sqrt(line->scene->axial_stiffness / line->scene->mass_per_length),
+                     line->step_limit);
 }
 
 bool line_advance(Line *line, const WaterField *water, double time, double duration,
@@ -291,28 +325,17 @@ bool line_advance(Line *line, const WaterField *water, double time, double durat
     ASSERT(duration > 0);
     LineWork *work = line->workspace;
     LineSpan span = {time, duration, anchor, fairlead};
-    line_load(line);
-    line_hold_ends(&work->now, line->node_count - 1, &span, 0);
+    int last = line->node_count - 1;
     sample_water(line, water, time, duration);
-    memset(work->peak, 0, (size_t)(line->node_count + 1) * sizeof(double));
     work->end_force[0] = work->end_force[1] = vec3(0, 0, 0);
     double sick_time = time;
-    int sick = line_step_rk2(line, &span, &sick_time);
-    if (sick < 0) {
-        line_water_at(work, 1);
-        line_segments(work, &work->now);
-        line_store(line, &span);
-        return true;
-    }
-    const LineNodes *now = &work->now;
-    return error_set(error, ERROR_PHYSICS,
-                     "line %s: node %d at t = %.6g s: position (%.4g, %.4g, %.4g) m, velocity "
-                     "(%.4g, %.4g, %.4g) m/s; accepted: finite and slower than sound in the line, "
-                     "%.4g m/s (sub-step limit %.3g s)",
-                     line->scene->name, sick, sick_time, now->x[sick], now->y[sick], now->z[sick],
-                     now->u[sick], now->v[sick], now->w[sick],
-                     sqrt(line->scene->axial_stiffness / line->scene->mass_per_length),
-                     line->step_limit);
+    int sick = line->stepper == LINE_STEPPER_RK2 ? advance_rk2(line, &span, &sick_time)
+                                                 : line_step_bdf2(line, &span, &sick_time);
+    if (sick >= 0) return report_sickness(line, sick, sick_time, error);
+    line->touchdown = touchdown_length(line, work->constants.bed);
+    line->anchor_force = end_pull(line, 0, 1, work->end_force[0], anchor, duration);
+    line->fairlead_force = end_pull(line, last, last - 1, work->end_force[1], fairlead, duration);
+    return true;
 }
 
 /// A saved line: positions, velocities, tensions, nine numbers, history of the implicit stepper.

@@ -65,6 +65,18 @@ void line_node_forces(LineWork *work, const LineNodes *nodes);
 /// `sick_time` is then set [s]
 int line_step_rk2(Line *line, const LineSpan *span, double *sick_time);
 
+/// Arrays and history of the implicit stepper (mooring_bdf2.c).
+bool line_bdf2_create(Line *line, Arena *arena, const char *what, Error *error);
+
+/// Implicit step over the span, split when it must be. @return as line_step_rk2
+int line_step_bdf2(Line *line, const LineSpan *span, double *sick_time);
+
+/// The state was changed by others: the next implicit step starts afresh.
+void line_bdf2_forget(Line *line);
+
+/// Direction from an end node to its inner neighbour and the wet length of its half segment.
+Vec3 line_end_direction(const LineWork *work, const Vec3 *x, int node, int inner, double *wet);
+
 /// Move free nodes to the equilibrium of the lumped line: the minimum of its (convex) energy, found
 /// by a damped Newton iteration from `nodes` (mooring_relax.c).
 /// @param nodes    [segments + 1], ends fixed; moved

@@ -46,6 +46,18 @@ FN double line_tension(const LineConstants *c, double s, double rate)
     return elastic + damping;
 }
 
+/// d line_tension / ds when the rate changes with s by `rate_slope` [1/s] (implicit steps) [N/m].
+FN double line_tension_slope(const LineConstants *c, double s, double rate, double rate_slope)
+{
+    double stretch = s - c->length;
+    double elastic = c->stiffness * stretch;
+    double damping = c->damping * rate;
+    double slope = c->stiffness + c->damping * rate_slope;
+    slope = damping > elastic ? 2 * c->stiffness : slope;
+    slope = damping < -elastic ? 0 : slope;
+    return stretch > 0 ? slope : 0;
+}
+
 /// Integral over depth of the wetted share of a horizontal cylinder, taken linear over its
 /// diameter.
 FN double line_wetness_integral(double depth, double radius)
@@ -89,6 +101,19 @@ FN double line_bed_force(const LineConstants *c, double share, double z, double 
     double force = share * (c->bed_stiffness * penetration -
                             c->bed_damping * line_bed_ramp(c, penetration) * rate);
     return (penetration > 0 && force > 0) ? force : 0;
+}
+
+/// -d line_bed_force / dz when the vertical speed changes with z by `rate_slope` [1/s] [N/m]; the
+/// softening part (a rising node) is left out, so that it is never negative.
+FN double line_bed_slope(const LineConstants *c, double share, double z, double rate,
+                         double rate_slope)
+{
+    double penetration = c->bed - z, t = penetration / c->bed_ramp;
+    double growth = (t > 0 && t < 1 && rate < 0) ? 6 * t * (1 - t) / c->bed_ramp : 0;
+    double slope = share * (c->bed_stiffness +
+                            c->bed_damping * (line_bed_ramp(c, penetration) * rate_slope -
+                                              growth * rate));
+    return line_bed_force(c, share, z, rate) > 0 ? slope : 0;
 }
 
 /// Friction against slip speed `slip` [m/s] under the bed force `normal`, as force over speed [N
