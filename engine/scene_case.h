@@ -16,6 +16,9 @@ typedef struct CaseFile {
     double basin_freeboard; ///< [m]; NAN = BASIN_FREEBOARD_RATIO of the largest wave height
 } CaseFile;
 
+/// A file that says nothing.
+CaseFile case_file_default(void);
+
 /// Keys of the whole file, of a body and of a line.
 extern const JsonTable CASE_TABLE, BODY_TABLE, LINE_TABLE;
 

@@ -133,13 +133,19 @@ static bool read_tree(const JsonReader *reader, const JsonValue *root, CaseFile 
     return case_check(reader, scene);
 }
 
-bool scene_load(const char *path, const char *const *overrides, int override_count, Scene *scene,
-                Error *error)
+CaseFile case_file_default(void)
 {
     CaseFile draft;
     memset(&draft, 0, sizeof draft);
     draft.scene = scene_default();
     draft.basin_depth = draft.basin_length = draft.basin_breadth = draft.basin_freeboard = NAN;
+    return draft;
+}
+
+bool scene_load(const char *path, const char *const *overrides, int override_count, Scene *scene,
+                Error *error)
+{
+    CaseFile draft = case_file_default();
     if (strlen(path) >= sizeof draft.scene.path)
         return error_set(error, ERROR_INPUT, "%.60s…: the path of a case must have < %d characters",
                          path, SCENE_PATH_SIZE);
