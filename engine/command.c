@@ -20,7 +20,8 @@ static bool choose(const char *path, double asked, double last, Range range, dou
 {
     *chosen = isnan(asked) ? last : asked;
     double slack = SLACK * (1 + fabs(*chosen));
-    if (*chosen >= range.min - slack && *chosen <= range.max + slack) return true;
+    if (isfinite(*chosen) && *chosen >= range.min - slack && *chosen <= range.max + slack)
+        return true;
     return error_set(error, ERROR_INPUT, "%s = %.9g: must be >= %.9g and <= %.9g %s", path,
                      *chosen * scale, range.min * scale, range.max * scale, unit);
 }
