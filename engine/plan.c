@@ -8,7 +8,6 @@
 #include <omp.h>
 
 #include "backend/backend.h"
-#include "backend/sweep.h"
 #include "body.h"
 #include "fill.h"
 #include "waves.h"
@@ -217,10 +216,10 @@ static bool check_memory(const Scene *scene, const Plan *plan, Error *error)
 
 static bool build(const Scene *scene, Plan *plan, Error *error)
 {
-    TRY(backend_choose(plan->options.backend, error));
-    plan->backend = backend_choose(plan->options.backend, error)->name;
-    snprintf(plan->variant, sizeof plan->variant, "half-pair clusters of 8, %s",
-             sweep_table_choose()->level);
+    const BackendTable *table = backend_choose(plan->options.backend, error);
+    TRY(table);
+    plan->backend = table->name;
+    snprintf(plan->variant, sizeof plan->variant, "half-pair clusters of 8, %s", table->variant());
     double dp = scene->fluid.spacing;
     plan->smoothing_length = scene->fluid.smoothing_ratio * dp;
     // a particle dp/2 from the wall sees layers at dp, 2 dp, …: those below 2h count

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "backend/sweep.h"
+#include "backend/backend.h"
 #include "engine.h"
 #include "fill.h"
 #include "step.h"

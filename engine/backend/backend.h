@@ -20,6 +20,9 @@
 /// Who moves a dummy particle; bodies are 0, 1, …
 enum { OWNER_FIXED = -3, OWNER_PISTON = -2, OWNER_RING = -1 };
 
+/// Bits of the pair effects in a sweep's mask.
+enum { PAIR_VISCOSITY = 1 << 0, PAIR_DIFFUSION = 1 << 1 };
+
 /// Where particles are at t = 0. All arrays are borrowed during create.
 typedef struct ParticleStart {
     int fluid_count;
@@ -106,8 +109,8 @@ typedef struct BackendTable {
     bool (*create)(const BackendSetup *setup, const ParticleStart *start, Arena *arena,
                    Backend **backend, Error *error);
     void (*destroy)(Backend *backend);
-    /// "x86-64-v4" …
-    const char *(*variant)(const Backend *backend);
+    /// The compiled sweep that this machine runs: "x86-64-v4" …
+    const char *(*variant)(void);
     /// Put moving dummies where they are at advance->time (+ dt 0); call once before the first
     /// step.
     void (*place)(Backend *backend, const Advance *advance);

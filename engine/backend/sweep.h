@@ -6,8 +6,6 @@
 
 #include "backend/particles.h"
 
-enum { PAIR_VISCOSITY = 1 << 0, PAIR_DIFFUSION = 1 << 1, PAIR_MASKS = 4 };
-
 typedef struct Sweep {
     ParticleSet *fluid;
     ParticleSet *walls[2];            ///< fixed, moving dummies; count 0 when absent
