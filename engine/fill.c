@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "carve.h"
 #include "physics/fluid.h"
 #include "waves.h"
 
@@ -51,20 +52,6 @@ static Vec3 lattice_point(const Lattice *l, int i, int j, int k)
                 l->min.z + (k + 0.5) * l->pitch[2]);
 }
 
-/// Water closer to a hull than a quarter of a spacing is carved away, at its displaced place:
-/// carving at mean places under a hot-started wave blew up (findings.md).
-static bool inside_a_body(const Scene *scene, const Plan *plan, Vec3 point)
-{
-    for (int b = 0; b < scene->body_count; b++) {
-        const BodyPlan *body = &plan->bodies[b];
-        Quat back = quat_conjugate(body->start_attitude);
-        Vec3 local = quat_rotate(back, vec3_sub(point, body->start_origin));
-        if (scene->domain.dimensions == 2) local.y = 0;
-        if (distance_grid_sample(&body->distance, local) < 0.25 * scene->fluid.spacing) return true;
-    }
-    return false;
-}
-
 static void add_fluid(const Scene *scene, const Plan *plan, const WaveState *waves, Fill *fill,
                       Vec3 mean, double surface)
 {
@@ -83,7 +70,7 @@ static void add_fluid(const Scene *scene, const Plan *plan, const WaveState *wav
         double eta = waves_elevation(waves, place.x, place.y, 0);
         below += eta * ratio - shift.z;
     }
-    if (inside_a_body(scene, plan, place)) return;
+    if (carve_hits(scene, plan, place)) return;
     int n = fill->fluid_count++;
     if (!fill->fluid_position) return;
     fill->fluid_position[n] = place;

@@ -9,6 +9,7 @@
 
 #include "backend/backend.h"
 #include "body.h"
+#include "carve.h"
 #include "fill.h"
 #include "waves.h"
 
@@ -90,6 +91,8 @@ static bool mesh_bodies(const Scene *scene, Plan *plan, Error *error)
                            &body->particle_count, error));
         TRY(distance_grid_create(&body->geometry.mesh, 0.5 * dp, 2 * dp, &plan->arena,
                                  &body->distance, error));
+        TRY(carve_grid_create(body->particles, body->particle_count, dp, &plan->arena,
+                              &body->dummies, error));
         Body start = body_create(&scene->bodies[b], &body->geometry);
         body->start_origin = body_point(&start, vec3(0, 0, 0));
         body->start_attitude = start.attitude;

@@ -33,7 +33,8 @@ typedef struct BodyPlan {
     BodyGeometry geometry;
     int particle_count;
     Vec3 *particles;       ///< geometry axes [particle_count][m]
-    DistanceGrid distance; ///< for carving the water
+    DistanceGrid distance; ///< to the skin, for carving the water
+    DistanceGrid dummies;  ///< to the nearest dummy particle
     Vec3 start_origin;     ///< of the geometry axes at t = 0, initial offset included [m]
     Quat start_attitude;
 } BodyPlan;

@@ -17,13 +17,14 @@ static double wall_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/// Incident wave at line nodes: SPH velocities are not asked (a choice that costs nothing).
+/// Incident wave at line nodes: SPH velocities are not asked (a choice that costs nothing). In a basin
+/// that wave carries no drift.
 static void water_at_nodes(const void *context, double time, int count, const Vec3 *position,
                            Vec3 *velocity, Vec3 *acceleration, double *elevation)
 {
     const WaveState *waves = context;
     for (int i = 0; i < count; i++) {
-        velocity[i] = waves_velocity(waves, position[i], time);
+        velocity[i] = waves_zone_velocity(waves, position[i], time);
         acceleration[i] = waves_acceleration(waves, position[i], time);
         elevation[i] = waves_elevation(waves, position[i].x, position[i].y, time);
     }
