@@ -1,0 +1,83 @@
+/// Physics of whole small scenes: rest, floating, waves.
+#include "scenes.h"
+
+/// rms difference from hydrostatic pressure over rho g d, and the kinetic energy [J].
+static double pressure_error(Run *run, double *energy)
+{
+    Snapshot snapshot;
+    CHECK(snapshot_create(&run->scene, &run->plan, &snapshot, &error));
+    snapshot_take(&run->scene, &run->plan, run->state, &snapshot);
+    double sum = 0, depth = -run->scene.domain.min.z, scale = 1000 * 9.81 * depth;
+    *energy = 0;
+    for (int i = 0; i < snapshot.fluid_count; i++) {
+        double d = snapshot.pressure[i] + 1000 * 9.81 * (double)snapshot.position[i][2];
+        sum += d * d;
+        for (int a = 0; a < 3; a++)
+            *energy +=
+                0.5 * run->plan.particle_mass * snapshot.velocity[i][a] * snapshot.velocity[i][a];
+    }
+    double rms = sqrt(sum / snapshot.fluid_count) / scale;
+    snapshot_destroy(&snapshot);
+    return rms;
+}
+
+TEST(still_water_keeps_its_hydrostatic_pressure_and_comes_to_rest)
+{
+    Scene scene = tank_2d(0.025);
+    scene.gauge_count = 1;
+    scene.gauges[0].x = 0.3;
+    Run *run = start(&scene, 2);
+    double early, late;
+    advance_to(run, 0.5);
+    pressure_error(run, &early);
+    advance_to(run, 5);
+    CHECK_NEAR(pressure_error(run, &late), 0, 0.01);
+    CHECK(late < 0.5 * early);
+    CHECK_NEAR(probe_elevation(&run->scene, run->state, 0), 0, 0.1 * 0.025);
+    CHECK(run->state->health.recoveries == 0);
+    finish(run);
+}
+
+TEST(a_floating_section_rests_at_its_hydrostatic_draft)
+{
+    Scene scene = tank_2d(0.025);
+    scene.body_count = 1;
+    BodyScene *box = &scene.bodies[0];
+    *box = body_scene_default();
+    snprintf(box->name, sizeof box->name, "box");
+    box->shape = BODY_BOX;
+    box->size = vec3(0.5, 1, 0.3);
+    box->position = vec3(0, 0, NAN);
+    box->draft = 0.15;
+    box->freedoms[1].kind = box->freedoms[3].kind = box->freedoms[5].kind = FREEDOM_FIXED;
+    Run *run = start(&scene, 2);
+    advance_to(run, 6);
+    double heave = 0;
+    int samples = 0;
+    // averaged over the last of the ringing
+    for (double t = 6; t < 9; t += 0.1, samples++) {
+        advance_to(run, t);
+        heave += body_motion(&run->state->bodies[0]).value[2];
+    }
+    CHECK_NEAR(heave / samples, 0, 0.5 * 0.025);
+    CHECK_NEAR(body_motion(&run->state->bodies[0]).value[4], 0, 0.02);
+    finish(run);
+}
+
+TEST(a_basin_keeps_the_height_it_is_asked_for)
+{
+    Scene scene = basin_2d(0.025);
+    Run *run = start(&scene, 2);
+    double low = 1, high = -1;
+    advance_to(run, 4);
+    while (run->state->time < 6) {
+        advance_to(run, run->state->time + 0.02);
+        double z = probe_elevation(&run->scene, run->state, 0);
+        low = z < low ? z : low;
+        high = z > high ? z : high;
+    }
+    CHECK_NEAR((high - low) / 0.12, 1, 0.05);
+    CHECK(run->state->largest_density_error < 0.015);
+    CHECK(run->state->health.recoveries == 0);
+    finish(run);
+}
