@@ -98,7 +98,7 @@ static int http_write(WebServer *server, struct lws *wsi, HttpRequest *request)
     memcpy(bytes + LWS_PRE, text_string(&request->body), length);
     int written = lws_write(wsi, bytes + LWS_PRE, length, LWS_WRITE_HTTP_FINAL);
     free(bytes);
-    text_clear(&request->body);
+    text_destroy(&request->body); // the next request on this connection begins with new user data
     return written != (int)length || lws_http_transaction_completed(wsi) ? -1 : 0;
 }
 
