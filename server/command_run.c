@@ -103,7 +103,10 @@ static bool apply_commands(Run *run, Error *error)
     State *state = run->state;
     const JournalCommand *due;
     while ((due = replay_next(&run->replay, state->time, state->time_step))) {
-        TRY(state_command(run->prepared.scene, state, &due->command, error));
+        Error reason = {0};
+        if (!state_command(run->prepared.scene, state, &due->command, &reason))
+            return error_set(error, reason.code, "%.200s: command at %.9g s: %.500s",
+                             run->options->commands, due->time, reason.message);
         char line[1024];
         journal_format_command(state->time, &state->waves.asked, line, sizeof line);
         TRY(recorder_journal(&run->recorder, line, error));

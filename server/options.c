@@ -132,11 +132,13 @@ OptionsResult options_parse(const OptionTable *table, int count, char **words, F
 {
     bool given[64] = {false}, has_positional = false;
     ASSERT(table->option_count <= 64);
-    for (int i = 0; i < count; i++) {
+    // asked for anywhere, help comes before any complaint
+    for (int i = 0; i < count; i++)
         if (!strcmp(words[i], "--help") || !strcmp(words[i], "-h")) {
             options_print_help(table, out);
             return OPTIONS_HELP;
         }
+    for (int i = 0; i < count; i++) {
         if (words[i][0] == '-' && words[i][1]) {
             const Option *seen = NULL;
             if (!parse_option(table, count, words, &i, &seen, error)) return OPTIONS_REFUSED;
