@@ -75,11 +75,9 @@ static EGLContext create_core_context(EGLDisplay display, EGLConfig config)
 }
 
 /// Finish a context on an initialised display.
-static bool open_context(Context *context, const char *name, EglData *data, Error *error)
+static bool open_context(Context *context, Error *error)
 {
-    *context = (Context){name, NULL, egl_function, egl_bind, egl_release, egl_destroy};
-    context->data = data; // apart: in the literal clang-tidy takes it for the one freed before
-    data->context = EGL_NO_CONTEXT;
+    EglData *data = context->data;
     if (!has_extension(eglQueryString(data->display, EGL_EXTENSIONS),
                        "EGL_KHR_surfaceless_context"))
         return error_set(error, ERROR_SYSTEM, "no contexts without a surface");
@@ -118,9 +116,14 @@ static bool open_platform(Context *context, const char *name, EGLenum platform, 
     if (!data) return error_set(error, ERROR_SYSTEM, "out of memory");
     data->display = display;
     data->counted = counted;
-    if (open_context(context, name, data, error)) return true;
-    egl_destroy(context);
-    return false;
+    Context opened = {name, data, egl_function, egl_bind, egl_release, egl_destroy};
+    data->context = EGL_NO_CONTEXT;
+    if (!open_context(&opened, error)) {
+        egl_destroy(&opened);
+        return false;
+    }
+    *context = opened;
+    return true;
 }
 
 bool context_egl_device(Context *context, bool software, Error *error)

@@ -95,7 +95,7 @@ void gl_mesh_create(const Gl *gl, Mesh *mesh, const int *sizes)
     for (int i = 0; sizes[i]; i++) {
         gl->EnableVertexAttribArray((GLuint)i);
         gl->VertexAttribPointer((GLuint)i, sizes[i], GL_FLOAT, GL_FALSE,
-                                stride * (GLsizei)sizeof(float), (const void *)offset);
+                                stride * (GLsizei)sizeof(float), gl_offset(offset));
         offset += (size_t)sizes[i] * sizeof(float);
     }
     gl->BindVertexArray(0);

@@ -84,6 +84,12 @@ enum { GL_FRAME_BINDING = 0 };
 /// @return 0 with ERROR_SYSTEM carrying the first lines of the driver's log
 GLuint gl_program(const Gl *gl, const char *name, const char *const *samplers, Error *error);
 
+/// OpenGL takes offsets into buffers as pointers.
+static inline const void *gl_offset(size_t bytes)
+{
+    return (const void *)bytes; // NOLINT(performance-no-int-to-ptr)
+}
+
 /// One interleaved vertex array of floats.
 typedef struct Mesh {
     GLuint array, vertices, indices;
