@@ -3,6 +3,7 @@
 #ifndef FAIRLEAD_PARTS_H
 #define FAIRLEAD_PARTS_H
 
+#include "cut.h"
 #include "frame.h"
 #include "gl.h"
 #include "scratch.h"
@@ -59,6 +60,10 @@ void lines_destroy(Lines *lines, const Gl *gl);
 typedef struct Water {
     GLuint program;
     HeightField field;
+    CutFaces cut;
+    GLuint cut_texture; ///< the field on the cut faces, 32-bit floats
+    bool cut_shown;
+    GLint faces;
     Mesh surface, walls;
     int shape[2]; ///< nodes the indices were made for
     Scratch vertices, scalar, shell;
@@ -69,7 +74,8 @@ typedef struct Water {
 bool water_create(Water *water, const Gl *gl, int node_limit, Error *error);
 /// Build the height field from the snapshot. @param largest  largest magnitude of the field drawn
 bool water_update(Water *water, const Frame *frame, double *largest, Error *error);
-/// Textures 0 to 3 are the opaque picture, its depth, the colour maps, the mirrored ships.
+/// Textures 0 to 4 are the opaque picture, its depth, the colour maps, the mirrored ships, the
+/// field on the cut faces.
 bool water_draw(Water *water, const Gl *gl, const Frame *frame, Error *error);
 void water_destroy(Water *water, const Gl *gl);
 

@@ -12,7 +12,7 @@
 
 /// Most nodes of the drawn surface. llvmpipe sets triangles up one after another, about 0.3 us
 /// each.
-enum { NODES_SOFTWARE = 20000, NODES_HARDWARE = 160000, NODES_STILL = 90000 };
+enum { NODES_SOFTWARE = 14000, NODES_HARDWARE = 160000, NODES_STILL = 90000 };
 
 struct Render {
     Context context;
@@ -115,9 +115,10 @@ void render_destroy(Render *render)
         gl->DeleteBuffers(1, &render->frame_buffer_object);
         gl->DeleteTextures(1, &render->maps);
         if (render->over) gl->DeleteFramebuffers(1, &render->over);
-        Target *targets[] = {&render->scene, &render->behind, &render->mirror, &render->final};
-        for (size_t i = 0; i < sizeof targets / sizeof *targets; i++)
-            gl_target_destroy(gl, targets[i]);
+        gl_target_destroy(gl, &render->scene);
+        gl_target_destroy(gl, &render->behind);
+        gl_target_destroy(gl, &render->mirror);
+        gl_target_destroy(gl, &render->final);
     }
     render->context.destroy(&render->context);
     encoder_destroy(&render->encoder);
@@ -171,6 +172,7 @@ static bool draw_water(Render *render, const Frame *frame, Error *error)
     use_texture(gl, 1, render->behind.depth);
     use_texture(gl, 2, render->maps);
     use_texture(gl, 3, render->mirror.colour);
+    use_texture(gl, 4, render->water.cut_texture);
     return water_draw(&render->water, gl, frame, error);
 }
 

@@ -9,11 +9,14 @@ typedef struct WaterVertex {
 
 bool water_create(Water *water, const Gl *gl, int node_limit, Error *error)
 {
-    static const char *const samplers[] = {"opaque_colour", "opaque_depth", "maps", "mirror", NULL};
+    static const char *const samplers[] = {"opaque_colour", "opaque_depth", "maps",
+                                           "mirror",        "cut",          NULL};
     TRY(water->program = gl_program(gl, "water", samplers, error));
+    water->faces = gl->GetUniformLocation(water->program, "faces");
     const int sizes[] = {4, 4, 1, 0};
     gl_mesh_create(gl, &water->surface, sizes);
     gl_mesh_create(gl, &water->walls, sizes);
+    water->cut_texture = gl_texture(gl, GL_RGBA8, GL_RGBA, 1, 1, NULL);
     water->node_limit = node_limit;
     return true;
 }
@@ -23,6 +26,8 @@ void water_destroy(Water *water, const Gl *gl)
     gl->DeleteProgram(water->program);
     gl_mesh_destroy(gl, &water->surface);
     gl_mesh_destroy(gl, &water->walls);
+    gl->DeleteTextures(1, &water->cut_texture);
+    cut_faces_destroy(&water->cut);
     height_field_destroy(&water->field);
     scratch_free(&water->vertices);
     scratch_free(&water->scalar);
@@ -95,6 +100,12 @@ bool water_update(Water *water, const Frame *frame, double *largest, Error *erro
     } else {
         *largest = largest_on_surface(&water->field, frame);
     }
+    water->cut_shown = needed && frame->view->water == WATER_SURFACE;
+    if (!water->cut_shown) return true;
+    TRY(cut_faces_build(&water->cut, snapshot, scalar, frame->box_min, frame->box_max, error));
+    int cells = water->cut.width * water->cut.rows;
+    for (int i = 0; i < cells; i++)
+        *largest = maxd(*largest, fabsf(water->cut.value[i]));
     return true;
 }
 
@@ -104,16 +115,25 @@ static int drawn_rows(const HeightField *field)
     return field->count[1] > 1 ? field->count[1] : 2;
 }
 
-/// Slope along an axis between the wet neighbours of a node.
+/// Slope along an axis; at the foot of a front it includes the dry bed.
 static float slope(const HeightField *field, int x, int y, int axis)
 {
     int at = axis ? y : x, n = y * field->count[0] + x, stride = axis ? field->count[0] : 1;
     if (field->count[axis] < 2) return 0.0f;
-    int low = at > 0 && field->kind[n - stride] != NODE_DRY ? 1 : 0;
-    int high = at + 1 < field->count[axis] && field->kind[n + stride] != NODE_DRY ? 1 : 0;
-    if (low + high == 0) return 0.0f;
+    int low = at > 0 ? 1 : 0, high = at + 1 < field->count[axis] ? 1 : 0;
     float rise = field->height[n + high * stride] - field->height[n - low * stride];
     return rise / (float)((low + high) * field->cell[axis]);
+}
+
+/// Water, or the foot of a front: a dry node beside a wet one, down to which the surface is draped.
+static bool is_drawn(const HeightField *field, int x, int y)
+{
+    for (int j = y - 1; j <= y + 1; j++)
+        for (int i = x - 1; i <= x + 1; i++)
+            if (i >= 0 && j >= 0 && i < field->count[0] && j < field->count[1] &&
+                field->kind[j * field->count[0] + i] != NODE_DRY)
+                return true;
+    return false;
 }
 
 static void surface_vertices(const HeightField *field, const Frame *frame, WaterVertex *out)
@@ -129,7 +149,7 @@ static void surface_vertices(const HeightField *field, const Frame *frame, Water
             *out++ = (WaterVertex){
                 .position = {(float)(field->origin[0] + x * field->cell[0]), (float)place,
                              field->height[n]},
-                .wet = field->kind[n] != NODE_DRY,
+                .wet = is_drawn(field, x, y),
                 .normal = {-dx * norm, -dy * norm, norm},
                 .value = field->scalar[n],
                 .below = -1.0f,
@@ -145,9 +165,10 @@ static int edge_count(const HeightField *field)
 }
 
 /// Two corners per node of the edge, at the surface and at the bed; side after side.
-static void wall_vertices(const HeightField *field, const Frame *frame, const WaterVertex *surface,
+static void wall_vertices(const Water *water, const Frame *frame, const WaterVertex *surface,
                           WaterVertex *out)
 {
+    const HeightField *field = &water->field;
     const float sides[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
     int columns = field->count[0], rows = drawn_rows(field);
     float bed = (float)frame->box_min.z;
@@ -161,6 +182,8 @@ static void wall_vertices(const HeightField *field, const Frame *frame, const Wa
             top.normal[1] = sides[side][1];
             top.normal[2] = 0.0f;
             top.below = 0.0f;
+            if (water->cut_shown)
+                top.value = (float)cut_faces_u(&water->cut, side, (double)i / (count - 1));
             WaterVertex foot = top;
             foot.position[2] = bed;
             foot.below = maxf(top.position[2] - bed, 0.0f);
@@ -213,10 +236,18 @@ bool water_draw(Water *water, const Gl *gl, const Frame *frame, Error *error)
         scratch_need(&water->vertices, (nodes + edge) * sizeof *vertices, error);
     TRY(vertices);
     surface_vertices(field, frame, vertices);
-    wall_vertices(field, frame, vertices, vertices + nodes);
+    wall_vertices(water, frame, vertices, vertices + nodes);
     gl_mesh_vertices(gl, &water->surface, vertices, nodes * sizeof *vertices);
     gl_mesh_vertices(gl, &water->walls, vertices + nodes, edge * sizeof *vertices);
+    if (water->cut_shown) {
+        gl->ActiveTexture(GL_TEXTURE4);
+        gl->BindTexture(GL_TEXTURE_2D, water->cut_texture);
+        gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, water->cut.width, water->cut.rows, 0, GL_RED,
+                       GL_FLOAT, water->cut.value);
+    }
     gl->UseProgram(water->program);
+    gl->Uniform4f(water->faces, (float)water->cut.bed, (float)water->cut.step,
+                  (float)water->cut.rows, water->cut_shown);
     gl->BindVertexArray(water->walls.array);
     gl->DrawElements(GL_TRIANGLES, water->walls.index_count, GL_UNSIGNED_INT, NULL);
     gl->BindVertexArray(water->surface.array);

@@ -12,6 +12,8 @@ uniform sampler2D opaque_colour;
 uniform sampler2D opaque_depth;
 uniform sampler2D maps;
 uniform sampler2D mirror;
+uniform sampler2D cut;
+uniform vec4 faces; // of the cut faces' grid: z of the first row, step [m], rows; 1 if shown
 
 // Length of the ray inside the water's room.
 float way_out(vec3 from, vec3 ray)
@@ -76,14 +78,16 @@ void main()
         vec4 ship = texture(mirror, screen + bend);
         reflected = mix(reflected, ship.rgb, ship.a * 0.85);
     }
-    float glint = wall ? 0.0 : pow(max(dot(up_bounce, sun.xyz), 0.0), 90.0) * 0.45;
+    float glint = wall ? 0.0 : pow(max(dot(up_bounce, sun.xyz), 0.0), 130.0) * 0.30;
     float share = wall ? min(fresnel, 0.25) * 0.6 : fresnel * water_shallow.w;
 
-    if (field.w > 0.5 && !wall) {
+    if (field.w > 0.5 && (!wall || faces.w > 0.5)) {
         float shown = field.w < 1.5 ? world.z - box_max.z : value;
+        if (wall) shown = texture(cut, vec2(value, ((world.z - faces.x) / faces.y + 0.5) / faces.z)).r;
         float at = clamp((shown - field.x) / (field.y - field.x), 0.0, 1.0);
-        vec3 mapped = texture(maps, vec2(at * 0.996 + 0.002, field.z)).rgb * (0.80 + 0.26 * lit);
-        colour = vec4(mix(through, mapped, 0.86) + 0.25 * glint, 1.0);
+        vec3 mapped = texture(maps, vec2(at * 0.996 + 0.002, field.z)).rgb;
+        mapped *= wall ? 0.80 + 0.12 * lit : 0.80 + 0.26 * lit;
+        colour = vec4(mix(through, mapped, wall ? 0.78 : 0.86) + 0.25 * glint, 1.0);
         colour.rgb = mix(colour.rgb, reflected, share * 0.25);
     } else {
         colour = vec4(mix(through, reflected, share) + glint * vec3(1.0, 0.97, 0.9), 1.0);

@@ -128,6 +128,8 @@ TEST(particles_that_are_not_numbers_are_passed_over)
     position[30][2] = NAN;
     position[40][2] = INFINITY;
     position[50][0] = 1e30f;
+    position[60][1] = 40000.0f;
+    position[70][0] = -5.0f;
     HeightField field = {0};
     build(&field, &fixture);
     CHECK_NEAR(largest_error(&fixture, &field, 0.0) / 0.08, 0, 0.25);
