@@ -1,5 +1,7 @@
 #include "parts.h"
 
+enum { TANK_EDGES = 12 };
+
 static const double least_half_width = 1.4; ///< [pixel] of a picture 540 high
 static const double anchor_size = 0.008;    ///< of the scene's radius
 
@@ -83,48 +85,88 @@ static int strip_indices(GLuint base, int vertices, GLuint *out)
     return count;
 }
 
+/// The edges of a tank with walls, as plain ribbons; -2 instead of a tension means pale.
+static int tank_vertices(const Frame *frame, LineVertex *out)
+{
+    const Domain *domain = &frame->snapshot->domain;
+    if (domain->kind == DOMAIN_BASIN) return 0;
+    const float low[3] = {(float)frame->box_min.x, (float)frame->box_min.y, (float)domain->min.z};
+    const float high[3] = {(float)frame->box_max.x, (float)frame->box_max.y, (float)domain->max.z};
+    for (int edge = 0; edge < TANK_EDGES; edge++) {
+        int axis = edge / 4, u = (axis + 1) % 3, v = (axis + 2) % 3;
+        float ends[2][3];
+        for (int end = 0; end < 2; end++) {
+            ends[end][axis] = end ? high[axis] : low[axis];
+            ends[end][u] = edge & 1 ? high[u] : low[u];
+            ends[end][v] = edge & 2 ? high[v] : low[v];
+        }
+        put_pair(out + 4 * edge, ends[0], ends[0], ends[1], -2.0f);
+        put_pair(out + 4 * edge + 2, ends[0], ends[1], ends[1], -2.0f);
+    }
+    return 4 * TANK_EDGES;
+}
+
+/// Ribbons being gathered for one upload; each stretch is drawn with its own width.
+typedef struct Batch {
+    LineVertex *vertices;
+    GLuint *indices;
+    int vertex_count, index_count;
+} Batch;
+
+/// Take over `vertices` corners just written behind the batch, as one strip.
+static void close_strip(Batch *batch, int vertices)
+{
+    batch->index_count +=
+        strip_indices((GLuint)batch->vertex_count, vertices, batch->indices + batch->index_count);
+    batch->vertex_count += vertices;
+}
+
+static void draw_stretch(const Lines *lines, const Gl *gl, int begin, int end, double radius,
+                         double pixels, double veil)
+{
+    if (end <= begin) return;
+    gl->Uniform4f(lines->size, (float)radius, (float)pixels, (float)veil, 0);
+    gl->DrawElements(GL_TRIANGLES, end - begin, GL_UNSIGNED_INT,
+                     gl_offset((size_t)begin * sizeof(GLuint)));
+}
+
 bool lines_draw(Lines *lines, const Gl *gl, const Frame *frame, double veil, Error *error)
 {
     const Snapshot *snapshot = frame->snapshot;
-    size_t room = 0;
+    size_t room = 4 * TANK_EDGES;
     for (int l = 0; l < snapshot->line_count; l++)
         room += 2 * (size_t)maxd(snapshot->lines[l].node_count, 0) + 4;
-    if (!room) return true;
-    LineVertex *vertices = scratch_need(&lines->vertices, room * sizeof *vertices, error);
-    GLuint *indices = scratch_need(&lines->indices, room * 3 * sizeof *indices, error);
-    TRY(vertices && indices);
-    int count = 0, index_count = 0, ends[SCENE_LINES_MAX];
+    Batch batch = {scratch_need(&lines->vertices, room * sizeof *batch.vertices, error),
+                   scratch_need(&lines->indices, room * 3 * sizeof *batch.indices, error), 0, 0};
+    TRY(batch.vertices && batch.indices);
+    const double anchor = anchor_size * frame->block.range.z;
+    int tank = tank_vertices(frame, batch.vertices), ends[SCENE_LINES_MAX];
+    for (int edge = 0; edge < tank / 4; edge++)
+        close_strip(&batch, 4);
+    int begin = batch.index_count;
     for (int l = 0; l < snapshot->line_count; l++) {
-        int made = line_vertices(&snapshot->lines[l], vertices + count);
-        index_count += strip_indices((GLuint)count, made, indices + index_count);
-        count += made;
-        ends[l] = index_count;
+        close_strip(&batch,
+                    line_vertices(&snapshot->lines[l], batch.vertices + batch.vertex_count));
+        ends[l] = batch.index_count;
     }
-    int line_indices = index_count;
-    for (int l = 0; l < snapshot->line_count; l++) {
-        int made = anchor_vertices(&snapshot->lines[l], anchor_size * frame->block.range.z,
-                                   vertices + count);
-        index_count += strip_indices((GLuint)count, made, indices + index_count);
-        count += made;
-    }
-    gl_mesh_vertices(gl, &lines->mesh, vertices, (size_t)count * sizeof *vertices);
-    gl_mesh_indices(gl, &lines->mesh, indices, index_count);
+    int anchors = batch.index_count;
+    for (int l = 0; l < snapshot->line_count; l++)
+        close_strip(&batch, anchor_vertices(&snapshot->lines[l], anchor,
+                                            batch.vertices + batch.vertex_count));
+    if (!batch.index_count) return true;
+    gl_mesh_vertices(gl, &lines->mesh, batch.vertices,
+                     (size_t)batch.vertex_count * sizeof *batch.vertices);
+    gl_mesh_indices(gl, &lines->mesh, batch.indices, batch.index_count);
 
-    float pixels = (float)(least_half_width * frame->block.target.y / 540.0);
+    const double pixels = least_half_width * frame->block.target.y / 540.0;
     gl->UseProgram(lines->program);
     gl->BindVertexArray(lines->mesh.array);
     gl->Enable(GL_BLEND);
     gl->DepthMask(GL_FALSE);
-    for (int l = 0, begin = 0; l < snapshot->line_count; begin = ends[l++]) {
-        gl->Uniform4f(lines->size, 0.5f * (float)snapshot->lines[l].diameter, pixels, (float)veil,
-                      0);
-        gl->DrawElements(GL_TRIANGLES, ends[l] - begin, GL_UNSIGNED_INT,
-                         (const void *)((size_t)begin * sizeof *indices));
-    }
-    gl->Uniform4f(lines->size, (float)(0.6 * anchor_size * frame->block.range.z), 2.0f * pixels,
-                  (float)veil, 0);
-    gl->DrawElements(GL_TRIANGLES, index_count - line_indices, GL_UNSIGNED_INT,
-                     (const void *)((size_t)line_indices * sizeof *indices));
+    draw_stretch(lines, gl, 0, begin, 0.0, 0.4 * pixels, 0.0);
+    for (int l = 0; l < snapshot->line_count; begin = ends[l++])
+        draw_stretch(lines, gl, begin, ends[l], 0.5 * snapshot->lines[l].diameter, pixels, veil);
+    draw_stretch(lines, gl, anchors, batch.index_count, 0.6 * anchor, 2.0 * pixels, veil);
     gl->DepthMask(GL_TRUE);
     gl->Disable(GL_BLEND);
     return true;

@@ -14,6 +14,10 @@ void main()
     float at = clamp((pull - tension.x) / (tension.y - tension.x), 0.0, 1.0);
     vec3 base = texture(maps, vec2(at * 0.996 + 0.002, tension.z)).rgb;
     if (pull < -0.5) base = vec3(0.16, 0.17, 0.19); // an anchor
+    if (pull < -1.5) { // an edge of the tank
+        colour = vec4(mix(grid_colour.rgb, backdrop_top.rgb, 0.3), 0.6 * cover);
+        return;
+    }
     float veil = size.z * (1.0 - exp(-2.0 * water_deep.w * max(sunk, 0.0)));
     float s = clamp(across / half_width, -1.0, 1.0);
     float shade = 0.72 + 0.38 * sqrt(1.0 - s * s);
