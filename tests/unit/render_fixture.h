@@ -141,7 +141,7 @@ static inline void fixture_water(Fixture *fixture)
                 double x = domain->min.x + (i + 0.5) * dp;
                 double y = plane ? 0 : domain->min.y + (j + 0.5) * dp;
                 double eta = fixture_elevation(fixture, x, y, snapshot->time);
-                double z = eta - (l + 0.5) * dp;
+                double z = snapshot->level + eta - (l + 0.5) * dp;
                 if (z < domain->min.z) break;
                 if (fixture_inside(fixture, vec3(x, y, z), 0.5 * dp)) continue;
                 snapshot->position[count][0] =
@@ -154,7 +154,7 @@ static inline void fixture_water(Fixture *fixture)
                 snapshot->velocity[count][0] = (float)(eta * fall);
                 snapshot->velocity[count][2] =
                     (float)(fixture_elevation(fixture, x, y, snapshot->time + 0.25) * fall);
-                snapshot->pressure[count] = (float)(1000 * 9.81 * (eta - z));
+                snapshot->pressure[count] = (float)(1000 * 9.81 * (snapshot->level + eta - z));
                 count++;
             }
     snapshot->fluid_count = count;
