@@ -1,8 +1,9 @@
 // Starts the program and a browser for the page's tests, and waits for things on the page.
 import { spawn } from "node:child_process";
-import { existsSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { createServer } from "node:net";
+import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -33,11 +34,12 @@ export class Program {
     this.port = port;
     this.url = `http://127.0.0.1:${port}/`;
     this.said = "";
+    this.data = mkdtempSync(join(tmpdir(), "fairlead-page-"));
   }
 
   async start() {
     const [command, ...leading] =
-      PROGRAM === "mock" ? [process.execPath, join(web, "dev", "mock_server.mjs")] : [PROGRAM, "serve", CASE];
+      PROGRAM === "mock" ? [process.execPath, join(web, "dev", "mock_server.mjs")] : [PROGRAM, "serve", CASE, "--data", this.data];
     if (PROGRAM !== "mock" && !existsSync(PROGRAM)) throw new Error(`no program ${PROGRAM}: build it, or FAIRLEAD_BIN=mock`);
     this.child = spawn(command, [...leading, "--port", String(this.port)], { cwd: root, stdio: ["ignore", "pipe", "pipe"] });
     for (const stream of [this.child.stdout, this.child.stderr]) stream.on("data", (data) => (this.said += data));
@@ -46,6 +48,12 @@ export class Program {
       if (this.child.exitCode !== null) throw new Error(`the program ended with ${this.child.exitCode}: ${this.said}`);
       return fetch(this.url).then((response) => response.ok, () => false);
     });
+  }
+
+  /** Ends it for good and takes away what it wrote. */
+  async discard() {
+    await this.stop();
+    rmSync(this.data, { recursive: true, force: true });
   }
 
   async stop() {

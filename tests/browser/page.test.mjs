@@ -30,7 +30,7 @@ before(async () => {
 
 after(async () => {
   await browser?.close();
-  await program?.stop();
+  await program?.discard();
 });
 
 test("the page loads and its picture changes while the simulation runs", async () => {

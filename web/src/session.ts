@@ -204,7 +204,8 @@ export class Session {
     const waiting = error.id === null ? undefined : this.snapshots.get(error.id);
     if (waiting) return waiting.failed(error.message);
     if (error.id === this.lastWaveId) this.wanted.value = null;
-    this.notify("bad", error.path ? `${error.path}: ${error.message}` : error.message);
+    const named = error.path === "" || error.message.startsWith(error.path);
+    this.notify("bad", named ? error.message : `${error.path}: ${error.message}`);
   }
 
   private receivePicture(picture: Picture): void {

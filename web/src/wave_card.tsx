@@ -111,7 +111,7 @@ function QuantityRow({ session, quantity, limits }: RowProps) {
           {fixed(min, 0)} to {fixed(max, 0)}
         </p>
       ) : (
-        <Slider label={label} min={min} max={max} step={step / 2} digits={digits} value={asked} onSlide={set} />
+        <Slider label={label} min={min} max={max} step={step / 2} value={asked} onSlide={set} />
       )}
     </div>
   );
@@ -129,12 +129,11 @@ type SliderProps = {
   min: number;
   max: number;
   step: number;
-  digits: number;
   value: number;
   onSlide: (value: number) => void;
 };
 
-function Slider({ label, min, max, step, digits, value, onSlide }: SliderProps) {
+function Slider({ label, min, max, step, value, onSlide }: SliderProps) {
   const slide = (event: Event): void => {
     if (!(event.currentTarget instanceof HTMLInputElement)) return;
     onSlide(roundedWithin(event.currentTarget.valueAsNumber, step, min, max));
@@ -147,7 +146,7 @@ function Slider({ label, min, max, step, digits, value, onSlide }: SliderProps) 
   };
   return (
     <div class="slider">
-      <span aria-hidden="true">{fixed(min, digits - 1)}</span>
+      <span aria-hidden="true">{dusted(min)}</span>
       <input
         type="range"
         min={min}
@@ -158,7 +157,7 @@ function Slider({ label, min, max, step, digits, value, onSlide }: SliderProps) 
         onInput={slide}
         onKeyDown={slideByKeys}
       />
-      <span aria-hidden="true">{fixed(max, digits - 1)}</span>
+      <span aria-hidden="true">{dusted(max)}</span>
     </div>
   );
 }
