@@ -1,5 +1,6 @@
 #include "session.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -283,6 +284,22 @@ static bool carry_out_run(Session *session, RunAction action, Error *error)
     return false;
 }
 
+/// What a command changes, short enough for a label on a plot: "height 0.2 m, heading 210°".
+static void describe_command(const Command *command, char *text, int size)
+{
+    int length = 0;
+    text[0] = 0;
+    if (!isnan(command->wave_height))
+        length += snprintf(text + length, (size_t)(size - length), "%sheight %.3g m",
+                           length ? ", " : "", command->wave_height);
+    if (!isnan(command->wave_period))
+        length += snprintf(text + length, (size_t)(size - length), "%speriod %.3g s",
+                           length ? ", " : "", command->wave_period);
+    if (!isnan(command->wave_heading))
+        snprintf(text + length, (size_t)(size - length), "%sheading %.4g°", length ? ", " : "",
+                 command->wave_heading * (180.0 / PI));
+}
+
 static bool carry_out_wave(Session *session, const Command *command, Error *error)
 {
     State *state = session->state;
@@ -294,8 +311,7 @@ static bool carry_out_wave(Session *session, const Command *command, Error *erro
     char line[1024], text[200];
     journal_format_command(state->time, asked, line, sizeof line);
     journal(session, line);
-    snprintf(text, sizeof text, "asked for height %.3g m, period %.3g s, heading %.4g°",
-             asked->height, asked->period, asked->heading * (180.0 / PI));
+    describe_command(command, text, sizeof text);
     history_add_marker(session->history, state->time, text);
     return true;
 }
