@@ -17,8 +17,8 @@ static double wall_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/// Incident wave at line nodes: SPH velocities are not asked (a choice that costs nothing). In a basin
-/// that wave carries no drift.
+/// Incident wave at line nodes: SPH velocities are not asked (a choice that costs nothing). In a
+/// basin that wave carries no drift.
 static void water_at_nodes(const void *context, double time, int count, const Vec3 *position,
                            Vec3 *velocity, Vec3 *acceleration, double *elevation)
 {

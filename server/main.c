@@ -3,9 +3,9 @@
 
 #include "commands.h"
 
-/// OpenMP's threads spin at the end of every loop unless told otherwise before the program starts; on
-/// a machine that also draws and serves, spinning takes the very core the others need (measured: steps
-/// five to ten times longer beside a busy neighbour, a few microseconds gained alone).
+/// OpenMP's threads spin at the end of every loop unless told otherwise before the program starts;
+/// on a machine that also draws and serves, spinning takes the very core the others need (measured:
+/// steps five to ten times longer beside a busy neighbour, a few microseconds gained alone).
 static void let_threads_sleep(char **argv)
 {
     if (getenv("OMP_WAIT_POLICY")) return;

@@ -110,9 +110,9 @@ FN double line_bed_slope(const LineConstants *c, double share, double z, double 
 {
     double penetration = c->bed - z, t = penetration / c->bed_ramp;
     double growth = (t > 0 && t < 1 && rate < 0) ? 6 * t * (1 - t) / c->bed_ramp : 0;
-    double slope = share * (c->bed_stiffness +
-                            c->bed_damping * (line_bed_ramp(c, penetration) * rate_slope -
-                                              growth * rate));
+    double slope =
+        share * (c->bed_stiffness +
+                 c->bed_damping * (line_bed_ramp(c, penetration) * rate_slope - growth * rate));
     return line_bed_force(c, share, z, rate) > 0 ? slope : 0;
 }
 
