@@ -165,11 +165,15 @@ static bool check_waves(const JsonReader *reader, const Scene *scene)
     TRY(check_wave_heights(reader, scene));
     double narrowest = domain->max.x - domain->min.x;
     if (domain->dimensions == 3) narrowest = mind(narrowest, domain->max.y - domain->min.y);
-    if (domain->kind == DOMAIN_BASIN && waves->zone_width >= narrowest / 2)
-        return table_refuse_number(reader, "waves.zone_width_m", waves->zone_width,
-                                   "must be >= 0 and < %.9g m (half of the basin's narrow side)",
-                                   narrowest / 2);
-    return true;
+    if (domain->kind != DOMAIN_BASIN || waves_zone_width(scene) < narrowest / 2) return true;
+    if (waves->zone_width == 0)
+        return table_refuse(reader, "waves.zone_width_m", NULL,
+                            "by the rule it would be %.3g m: must be given, > 0 and < %.9g m (half "
+                            "of the basin's narrow side), or the basin larger",
+                            waves_zone_width(scene), narrowest / 2);
+    return table_refuse_number(reader, "waves.zone_width_m", waves->zone_width,
+                               "must be >= 0 and < %.9g m (half of the basin's narrow side)",
+                               narrowest / 2);
 }
 
 double case_particle_estimate(const Scene *scene, double spacing)
