@@ -18,13 +18,13 @@ static bool ask(double height, double period, double heading_deg)
 static void load(const char *name)
 {
     char path[512];
-    snprintf(path, sizeof path, "%s/cases/%s", SOURCE_DIR, name);
+    snprintf(path, sizeof path, "%s/%s", SOURCE_DIR, name);
     if (!scene_load(path, NULL, 0, &scene, &error)) printf("  %s\n", error.message);
 }
 
 TEST(command_keeps_what_it_does_not_name)
 {
-    load("moored_ship.json");
+    load("tests/good_cases/steered.json");
     Command nothing = command_default();
     WaveTarget last = {0.1, 1.5, PI};
     CHECK(command_check(&scene, &nothing, &last, &target, &error));
@@ -35,7 +35,7 @@ TEST(command_keeps_what_it_does_not_name)
 
 TEST(command_outside_the_limits_is_refused_as_a_whole)
 {
-    load("moored_ship.json");
+    load("tests/good_cases/steered.json");
     CHECK(!ask(0.31, 1.6, 90));
     CHECK_CONTAINS(error.message, "wave.height_m = 0.31: must be >= 0 and <= 0.3 m");
     CHECK(target.height == -1 && target.period == -1 && target.heading == -1);
@@ -49,14 +49,14 @@ TEST(command_outside_the_limits_is_refused_as_a_whole)
 
 TEST(limits_themselves_are_accepted)
 {
-    load("moored_ship.json");
+    load("tests/good_cases/steered.json");
     CHECK(ask(0.3, 1.26, 0));
     CHECK(ask(0, 2, 360));
 }
 
 TEST(heading_turns_by_full_circles_into_the_limits)
 {
-    load("moored_ship.json");
+    load("tests/good_cases/steered.json");
     CHECK(ask(NAN, NAN, -90));
     CHECK_NEAR(target.heading, 1.5 * PI, 1e-12);
     CHECK(ask(NAN, NAN, 450));
@@ -68,7 +68,7 @@ TEST(heading_turns_by_full_circles_into_the_limits)
 
 TEST(a_wave_that_would_break_is_refused)
 {
-    load("moored_ship.json");
+    load("tests/good_cases/steered.json");
     scene.waves.height_limits.max = 1;
     CHECK(!ask(0.4, 1.26, NAN)); // 0.142 L tanh kd = 0.349 m at 1.26 s in 1.2 m
     CHECK_CONTAINS(error.message, "<= 0.3489 m");
@@ -77,14 +77,14 @@ TEST(a_wave_that_would_break_is_refused)
 
 TEST(a_case_without_waves_takes_no_command)
 {
-    load("dam_break.json");
+    load("cases/dam_break.json");
     CHECK(!ask(0.1, 1, 0));
     CHECK_CONTAINS(error.message, "this case has no waves");
 }
 
 TEST(waves_in_the_plane_travel_along_it)
 {
-    load("moored_ship.json");
+    load("tests/good_cases/steered.json");
     scene.domain.dimensions = 2;
     CHECK(ask(NAN, NAN, 0));
     CHECK(!ask(NAN, NAN, 30));
