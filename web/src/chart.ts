@@ -93,7 +93,7 @@ export class Chart {
     return {
       width: 100,
       height: 100,
-      padding: [4, 8, timeAxis ? 0 : 4, 0],
+      padding: [6, 8, timeAxis ? 0 : 4, 0],
       legend: { show: false },
       cursor: { drag: { setScale: false, x: false, y: false }, y: false, points: { size: 5 } },
       scales: { x: { time: false, range: () => this.range }, y: { range: valueRange(panel.leastSpan) } },
