@@ -13,6 +13,8 @@ static const float top_band = 0.8f;
 static const float layer_band = 0.7f;
 /// A particle this far above the next of its column is not part of the water's body [dp].
 static const float support_gap = 1.7f;
+/// A single particle of a column is water rather than spray when it is this near the bed [dp].
+static const float sheet_band = 2.5f;
 /// Particles further above the top of their column are spray [dp].
 static const float spray_band = 1.5f;
 /// Open water gives a node a weight of 4 (2 in a slice); one beside a hull with less than this is
@@ -90,13 +92,15 @@ static int column_of(const HeightField *field, const Snapshot *snapshot, const f
 }
 
 /// The mean of the layer on top, of the three highest particles of a column. A highest particle
-/// with nothing close below it is spray; one standing on a stack beside a hull is not.
-static float column_top(const float highest[3], float dp)
+/// with nothing close below it is spray; one standing on a stack beside a hull, or lying on the bed
+/// in a thin sheet, is not.
+static float column_top(const float highest[3], float dp, float bed)
 {
     int first = highest[0] - highest[1] > support_gap * dp ? 1 : 0;
     float sum = 0.0f, top = highest[first];
     int count = 0;
-    if (!(highest[1] > -INFINITY)) return -INFINITY;
+    if (!(highest[1] > -INFINITY))
+        return highest[0] < bed + sheet_band * dp ? highest[0] : -INFINITY;
     for (int k = first; k < 3 && highest[k] > top - layer_band * dp; k++, count++)
         sum += highest[k];
     return sum / (float)count;
@@ -125,9 +129,9 @@ static void find_tops(HeightField *field, const Snapshot *snapshot)
             highest[2] = z;
         }
     }
-    const float dp = (float)snapshot->spacing;
+    const float dp = (float)snapshot->spacing, bed = (float)snapshot->domain.min.z;
     for (int c = 0; c < columns; c++)
-        field->top[c] = column_top(field->highest[c], dp);
+        field->top[c] = column_top(field->highest[c], dp, bed);
 }
 
 /// Nodes within `reach` of a coordinate: [*begin, *end).

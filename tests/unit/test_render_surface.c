@@ -106,6 +106,29 @@ TEST(a_bed_without_water_is_dry_and_at_the_bed)
     fixture_free(&fixture);
 }
 
+TEST(a_sheet_one_particle_thick_covers_the_bed)
+{
+    Fixture fixture = fixture_basin(0.1, 0.0);
+    fixture_water(&fixture);
+    int count = 0;
+    for (double x = -3.55; x < 3.6; x += 0.17)
+        for (double y = -1.95; y < 2.0; y += 0.17, count++) {
+            fixture.snapshot.position[count][0] = (float)x;
+            fixture.snapshot.position[count][1] = (float)y;
+            fixture.snapshot.position[count][2] = -1.15f;
+        }
+    fixture.snapshot.fluid_count = count;
+    HeightField field = {0};
+    build(&field, &fixture);
+    int dry = 0;
+    for (int n = 0; n < field.count[0] * field.count[1]; n++)
+        dry += field.kind[n] == NODE_DRY;
+    CHECK(dry == 0);
+    CHECK_NEAR(height_field_sample(&field, 0, 0), -1.1, 0.01);
+    height_field_destroy(&field);
+    fixture_free(&fixture);
+}
+
 TEST(one_drop_of_spray_does_not_lift_the_surface)
 {
     Fixture fixture = fixture_basin(0.06, 0.0);
