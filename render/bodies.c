@@ -3,7 +3,8 @@
 #include <string.h>
 
 static const double crease_angle = 38.0 * PI / 180.0;
-static const float bottom_paint[3] = {0.47f, 0.15f, 0.12f};
+/// Below the waterline: red-brown, or dark grey under a hull that is red itself.
+static const float bottom_paints[2][3] = {{0.47f, 0.15f, 0.12f}, {0.15f, 0.17f, 0.20f}};
 
 bool bodies_create(Bodies *bodies, const Gl *gl, Error *error)
 {
@@ -155,6 +156,8 @@ void bodies_draw(const Bodies *bodies, const Gl *gl, const Frame *frame, const H
         gl->Uniform4f(bodies->flip, mirror ? -1.0f : 1.0f, (float)level, (float)frame->breadth, 0);
         gl->Uniform4f(bodies->paint, (float)colour[0], (float)colour[1], (float)colour[2],
                       (float)body->waterline);
+        bool red = colour[0] > 1.6 * colour[1] && colour[0] > 1.6 * colour[2];
+        const float *bottom_paint = bottom_paints[red];
         gl->Uniform4f(bodies->anti, bottom_paint[0], bottom_paint[1], bottom_paint[2],
                       (float)body->boot_top);
         gl->BindVertexArray(body->mesh.array);

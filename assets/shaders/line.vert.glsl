@@ -23,6 +23,11 @@ void main()
     across = edge.x * grown;
     pull = edge.y;
     sunk = box_max.z - position.z;
+    // Towards the eye by a few widths, so that a line on the bed is not half sunk in it.
+    float width = half_width * 2.0 * forward.w * centre.w * target.w;
+    vec3 nearer = position + normalize(eye.xyz - position) * 6.0 * width;
+    vec4 shifted = clip_from_world * vec4(nearer, 1.0);
+    centre.z = shifted.z / shifted.w * centre.w;
     centre.xy += edge.x * vec2(-along.y, along.x) * grown * 2.0 * target.zw * centre.w;
     gl_Position = centre;
 }
