@@ -1,6 +1,8 @@
 /// Each file of tests/bad_cases is refused before anything runs, with one line that contains what
 /// tests/bad_cases/expected.txt says.
 #include <dirent.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 #include "engine.h"
 #include "test.h"
@@ -89,4 +91,65 @@ TEST(a_folder_or_a_missing_file_is_no_case)
     CHECK(!scene_load(FOLDER "no_such_case.json", NULL, 0, &scene, &error));
     CHECK_CONTAINS(error.message, "no_such_case.json: cannot be opened");
     CHECK(error.code == ERROR_INPUT);
+}
+
+/// A repeatable number below `range` (Knuth's MMIX generator).
+static unsigned draw(unsigned long long *state, unsigned range)
+{
+    *state = *state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (unsigned)(*state >> 33) % range;
+}
+
+/// Damage a text: a byte changed, a piece cut out, or a value replaced by an odd one.
+static size_t damage(char *text, size_t length, unsigned long long *state)
+{
+    static const char *const odd[] = {"-1",       "1e999", "0",      "null", "[]",
+                                      "{}",       "\"\"",  "1e300",  "true", "[1,2]",
+                                      "\"free\"", "2.5",   "1e-300", "[[]]", "-"};
+    size_t at = draw(state, (unsigned)length), cut = 1 + draw(state, 20);
+    unsigned way = draw(state, 3);
+    char *colon = memchr(text + at, ':', length - at);
+    if (way == 0) {
+        text[at] = (char)draw(state, 256);
+    } else if (way == 1 && at + cut < length) {
+        memmove(text + at, text + at + cut, length - at - cut);
+        length -= cut;
+    } else if (way == 2 && colon) {
+        const char *value = odd[draw(state, sizeof odd / sizeof *odd)];
+        size_t begin = (size_t)(colon - text) + 1, end = begin, size = strlen(value);
+        while (end < length && !strchr(",\n}", text[end]))
+            end++;
+        memmove(text + begin + size, text + end, length - end);
+        memcpy(text + begin, value, size);
+        length = length - (end - begin) + size;
+    }
+    return length;
+}
+
+TEST(damaged_cases_are_loaded_or_refused_in_one_line_but_never_crash)
+{
+    static char good[8192], text[16384];
+    static Scene scene;
+    char path[] = "/tmp/fairlead_test_damage_XXXXXX";
+    int file = mkstemp(path), refused = 0, odd_errors = 0;
+    FILE *source = fopen(SOURCE_DIR "/tests/good_cases/steered.json", "rb");
+    size_t size = source ? fread(good, 1, sizeof good, source) : 0;
+    if (source) fclose(source);
+    CHECK(file >= 0 && size > 0 && size < sizeof good);
+    unsigned long long state = 20260101;
+    for (int i = 0; i < 2000 && size; i++) {
+        size_t length = size;
+        memcpy(text, good, size);
+        for (unsigned k = 1 + draw(&state, 3); k > 0 && length; k--)
+            length = damage(text, length, &state);
+        if (ftruncate(file, 0) || pwrite(file, text, length, 0) != (ssize_t)length) break;
+        Error error = {0};
+        if (scene_load(path, NULL, 0, &scene, &error)) continue;
+        refused++;
+        odd_errors += error.code != ERROR_INPUT || !error.message[0] || strchr(error.message, '\n');
+    }
+    if (file >= 0) close(file);
+    unlink(path);
+    CHECK(refused > 1000);
+    CHECK(odd_errors == 0);
 }
