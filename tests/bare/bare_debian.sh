@@ -77,6 +77,26 @@ try_out() {
     began=$SECONDS
     inside "$tree/fairlead" explain "$tree/cases/still_water.json" --json >/dev/null
     say "explain answered after $((SECONDS - began)) s"
+    inside bash -c "cd '$tree' && $(declare -f page_answers) && page_answers"
+}
+
+# Start the studio, ask for its page as a browser would, stop it. Runs inside the trial.
+page_answers() {
+    local port="" answer began=$SECONDS
+    ./fairlead serve --port 0 --data /tmp/data >/tmp/serve.log 2>&1 &
+    local server=$!
+    while [ -z "$port" ] && kill -0 "$server" && [ $((SECONDS - began)) -lt 60 ]; do
+        sleep 0.2
+        port=$(sed -nE 's#.*http://127\.0\.0\.1:([0-9]+)/.*#\1#p' /tmp/serve.log)
+    done
+    cat /tmp/serve.log
+    exec 3<>"/dev/tcp/127.0.0.1/$port"
+    printf 'GET / HTTP/1.1\r\nHost: 127.0.0.1:%s\r\nConnection: close\r\n\r\n' "$port" >&3
+    answer=$(timeout 10 head -n 1 <&3)
+    echo "the page answers: $answer"
+    kill "$server"
+    wait "$server" || true
+    [ "${answer#*200}" != "$answer" ]
 }
 
 if [ "${1:-}" = --inside ]; then
