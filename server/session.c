@@ -268,15 +268,15 @@ static bool reset(Session *session, Error *error)
 
 static bool carry_out_run(Session *session, RunAction action, Error *error)
 {
+    if (session->run_state == RUN_FAILED && action != ACTION_RESET)
+        return error_set(error, ERROR_INPUT, "the simulation has failed: reset it first");
     switch (action) {
     case ACTION_START:
-        if (session->run_state == RUN_FAILED)
-            return error_set(error, ERROR_INPUT, "the simulation has failed: reset it first");
         session->run_state = RUN_RUNNING;
         begin_window(session, clock_seconds());
         return true;
     case ACTION_PAUSE:
-        if (session->run_state == RUN_RUNNING) session->run_state = RUN_PAUSED;
+        session->run_state = RUN_PAUSED;
         return true;
     case ACTION_RESET:
         return reset(session, error);
