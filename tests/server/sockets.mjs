@@ -192,7 +192,7 @@ test('abuse closes the connection and hurts nobody else', async () => {
 });
 
 test('only one live picture is ever unacknowledged', async () => {
-    const client = await server.greet();
+    const [client, eager] = [await server.greet(), await server.greet()];
     client.autoAck = false;
     const first = client.pictures.at(-1) ?? (await client.next('picture'));
     await sleep(300);
@@ -205,7 +205,9 @@ test('only one live picture is ever unacknowledged', async () => {
     client.send({ type: 'ack', frame: client.pictures.at(-1).number });
     const next = await client.next('picture');
     assert.ok(next.number > first.number && next.time > first.time);
+    assert.ok(eager.pictures.length > client.pictures.length + 2, 'others are not held up');
     client.close();
+    eager.close();
 });
 
 test('pictures keep coming at three a second at least, and not too many', async () => {

@@ -48,6 +48,26 @@ TEST(the_latest_of_three_is_never_torn_and_never_older)
     CHECK(older == 0);
 }
 
+TEST(writer_and_reader_never_hold_the_same_buffer)
+{
+    TripleSlot slot;
+    int contents[3] = {0}, published = 0, taken = 0;
+    unsigned pattern = 12345;
+    triple_slot_init(&slot);
+    for (int i = 0; i < 1000; i++) {
+        pattern = pattern * 1103515245u + 12345u;
+        if (pattern >> 16 & 1) {
+            contents[slot.back] = ++published;
+            triple_slot_publish(&slot);
+        } else if (triple_slot_take(&slot)) {
+            taken = contents[slot.front];
+            CHECK(taken == published);
+        }
+        CHECK(slot.back != slot.front && slot.back < 3 && slot.front < 3);
+        CHECK(taken == 0 || contents[slot.front] == taken);
+    }
+}
+
 TEST(nothing_new_leaves_the_front_as_it_is)
 {
     TripleSlot slot;
