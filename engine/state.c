@@ -116,6 +116,10 @@ static bool place_and_measure(const Scene *scene, const Plan *plan, State *state
     for (int b = 0; b < scene->body_count; b++)
         state->centres[b] = state->bodies[b].position;
     TRY(state->backend->forces(state->particles, state->centres, state->loads, error));
+    for (int b = 0; b < scene->body_count; b++) {
+        state->bodies[b].fluid_force = state->loads[b].force;
+        state->bodies[b].fluid_moment = state->loads[b].moment;
+    }
     if (plan->pair_mask & PAIR_VISCOSITY)
         state->pair_cost[0] = state->backend->pair_cost(state->particles, PAIR_VISCOSITY);
     if (plan->pair_mask & PAIR_DIFFUSION)

@@ -6,6 +6,8 @@
 /// SWEEP_LEVEL to the level's.
 #include "backend/sweep.h"
 
+#include <string.h>
+
 #include "physics/fluid.h"
 
 enum { VISITS_MAX = 2048 };
@@ -13,7 +15,7 @@ enum { VISITS_MAX = 2048 };
 /// Boxes of one cluster's neighbours, side by side for the vectorised test.
 typedef struct Neighbourhood {
     int count;
-    uint32_t cluster[VISITS_MAX];
+    int32_t slot[VISITS_MAX]; ///< first of each cluster
     int32_t min[3][VISITS_MAX], max[3][VISITS_MAX];
 } Neighbourhood;
 
@@ -24,7 +26,7 @@ static void gather_boxes(Neighbourhood *n, const ClusterList *list, int i, const
     n->count = count < VISITS_MAX ? count : VISITS_MAX;
     for (int k = 0; k < n->count; k++) {
         uint32_t c = entry[k];
-        n->cluster[k] = c;
+        n->slot[k] = (int32_t)c * CLUSTER;
         for (int a = 0; a < 3; a++) {
             n->min[a][k] = boxes->min[a][c];
             n->max[a][k] = boxes->max[a][c];
@@ -36,7 +38,7 @@ static void gather_boxes(Neighbourhood *n, const ClusterList *list, int i, const
 static int select_visits(const Neighbourhood *n, int32_t x, int32_t y, int32_t z,
                          float support_squared, int32_t *visits)
 {
-    float gap[VISITS_MAX];
+    int32_t near[VISITS_MAX];
 #pragma omp simd
     for (int k = 0; k < n->count; k++) {
         int32_t bx = n->min[0][k] - x, ax = x - n->max[0][k];
@@ -47,12 +49,12 @@ static int select_visits(const Neighbourhood *n, int32_t x, int32_t y, int32_t z
         bz = bz > az ? bz : az;
         float gx = (float)(bx > 0 ? bx : 0), gy = (float)(by > 0 ? by : 0);
         float gz = (float)(bz > 0 ? bz : 0);
-        gap[k] = gx * gx + gy * gy + gz * gz;
+        near[k] = gx * gx + gy * gy + gz * gz < support_squared;
     }
     int count = 0;
     for (int k = 0; k < n->count; k++) {
-        visits[count] = (int32_t)n->cluster[k] * CLUSTER;
-        count += gap[k] < support_squared;
+        visits[count] = n->slot[k];
+        count += near[k];
     }
     return count;
 }
@@ -152,6 +154,35 @@ FN void visit_density(const Self *self, const ParticleSet *other, int base, cons
     }
 }
 
+/// Push of wall clusters on one particle.
+static void push_of_walls(const Self *self, const ParticleSet *walls, const int32_t *visits,
+                          int count, const SweepConstants c, Lanes *total)
+{
+    const Self own = *self;
+    const ParticleSet set = *walls;
+    Lanes sum = {{0}, {0}, {0}};
+    for (int k = 0; k < count; k++)
+        visit_momentum(&own, &set, visits[k], c, false, false, &sum);
+    for (int l = 0; l < CLUSTER; l++) {
+        total->x[l] += sum.x[l];
+        total->y[l] += sum.y[l];
+        total->z[l] += sum.z[l];
+    }
+}
+
+/// Walls' part in the continuity of one particle.
+static void squeeze_of_walls(const Self *self, const ParticleSet *walls, const int32_t *visits,
+                             int count, const SweepConstants c, float total[CLUSTER])
+{
+    const Self own = *self;
+    const ParticleSet set = *walls;
+    float sum[CLUSTER] = {0};
+    for (int k = 0; k < count; k++)
+        visit_density(&own, &set, visits[k], c, false, false, sum);
+    for (int l = 0; l < CLUSTER; l++)
+        total[l] += sum[l];
+}
+
 FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous, Neighbourhood *n)
 {
     ParticleSet *fluid = sweep->fluid;
@@ -176,8 +207,7 @@ FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous, Neighbo
             if (fluid->id[i * CLUSTER + l] < 0) continue;
             const Self self = self_of(fluid, i * CLUSTER + l);
             int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
-            for (int k = 0; k < count; k++)
-                visit_momentum(&self, sweep->walls[set], visits[k], c, false, false, &sums[l]);
+            push_of_walls(&self, sweep->walls[set], visits, count, c, &sums[l]);
         }
     }
     for (int l = 0; l < CLUSTER; l++) {
@@ -198,9 +228,11 @@ FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive, Neighbourh
         if (fluid->id[i * CLUSTER + l] < 0) continue;
         const Self self = self_of(fluid, i * CLUSTER + l);
         int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+        float sum[CLUSTER] = {0};
         for (int k = 0; k < count; k++)
-            visit_density(&self, fluid, visits[k], c, diffusive, true, sums[l]);
-        visit_density(&self, fluid, i * CLUSTER, c, diffusive, false, sums[l]);
+            visit_density(&self, fluid, visits[k], c, diffusive, true, sum);
+        visit_density(&self, fluid, i * CLUSTER, c, diffusive, false, sum);
+        memcpy(sums[l], sum, sizeof sum);
     }
     for (int set = 0; set < 2; set++) {
         if (!sweep->walls[set]->count || !sweep->fluid_wall[set]->count[i]) continue;
@@ -209,8 +241,7 @@ FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive, Neighbourh
             if (fluid->id[i * CLUSTER + l] < 0) continue;
             const Self self = self_of(fluid, i * CLUSTER + l);
             int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
-            for (int k = 0; k < count; k++)
-                visit_density(&self, sweep->walls[set], visits[k], c, false, false, sums[l]);
+            squeeze_of_walls(&self, sweep->walls[set], visits, count, c, sums[l]);
         }
     }
     for (int l = 0; l < CLUSTER; l++)
