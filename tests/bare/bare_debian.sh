@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Does `./fairlead` set everything up on a Debian 12 that has nothing?
-#   bare_debian.sh [FOLDER]     as root, with debootstrap; needs about 4 GB in FOLDER
+#   bare_debian.sh [FOLDER [test]]     as root, with debootstrap; needs about 4 GB in FOLDER
 # Makes a minimal root in FOLDER/base (kept, so that a second trial is quicker), copies it to
 # FOLDER/trial, clones the committed tree into it under a name with a space and, inside, builds and
-# runs a short case. The package mirror, npm's registry and certificates are this machine's own, asked
+# runs a short case and asks the studio for its page; with the word `test` it also runs every test that CI
+# runs. The package mirror, npm's registry and certificates are this machine's own, asked
 # for at run time. Without FOLDER a temporary one is used and removed.
 set -euo pipefail
 
@@ -78,6 +79,11 @@ try_out() {
     inside "$tree/fairlead" explain "$tree/cases/still_water.json" --json >/dev/null
     say "explain answered after $((SECONDS - began)) s"
     inside bash -c "cd '$tree' && $(declare -f page_answers) && page_answers"
+    [ "$word" = test ] || return 0
+    began=$SECONDS
+    say "./fairlead test"
+    inside "$tree/fairlead" test
+    say "tested after $((SECONDS - began)) s"
 }
 
 # Start the studio, ask for its page as a browser would, stop it. Runs inside the trial.
@@ -100,7 +106,7 @@ page_answers() {
 }
 
 if [ "${1:-}" = --inside ]; then
-    folder=$2 trial=$2/trial
+    folder=$2 trial=$2/trial word=$3
     try_out
     exit
 fi
@@ -122,5 +128,5 @@ cp -a "$folder/base" "$trial"
 share_network
 git clone --quiet --no-hardlinks "$root" "$trial/opt/trial/fair lead"
 say "$(git -C "$root" log -1 --format='trying %h %s')"
-unshare --mount bash "$0" --inside "$folder"
+unshare --mount bash "$0" --inside "$folder" "${2:-}"
 say "the set-up works on a bare $release"

@@ -42,7 +42,7 @@ stand_in() {
 
 have_all() {
     local tool
-    for tool in gcc g++ pkg-config chromium clang-format clang-tidy shellcheck nvcc node; do
+    for tool in gcc g++ pkg-config chromium clang-format clang-tidy shellcheck git nvcc node; do
         stand_in "$tool" :
     done
     stand_in cmake "printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\n' '$tree' >'$tree/build/CMakeCache.txt'
