@@ -141,6 +141,7 @@ static bool run_setup(Run *run, Error *error)
     run->view = view_options_default();
     run->view.width = 1280;
     run->view.height = 720;
+    run->view.samples = 4;
     run->view.overlay = true;
     run->view.camera = camera_for_scene(prepared->scene);
     TRY(snapshot_create(prepared->scene, prepared->plan, &run->snapshot, error));

@@ -162,6 +162,7 @@ static void draw_stills(Pictures *pictures, const Snapshot *snapshot)
         ViewOptions view = current_view(pictures, &version);
         view.width = request.width;
         view.height = request.height;
+        view.samples = 4;
         StillReply reply = {.client = request.client, .id = request.id};
         Error error = {0};
         reply.picture = encode(pictures, snapshot, &view, PICTURE_STILL, request.id, &error);
