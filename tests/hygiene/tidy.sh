@@ -14,10 +14,14 @@ if [ -z "$tool" ]; then
 fi
 
 mkdir -p "$build/tidy"
-# A file that is compiled at several instruction levels is looked at once.
+# A file that is compiled at several instruction levels is looked at once; of gcc's -f options clang
+# knows some only, and needs none but those for OpenMP.
 awk 'BEGIN { RS = "\n}"; printf "[" }
     match($0, /"file": "[^"]*"/) && !seen[substr($0, RSTART, RLENGTH)]++ {
         sub(/^[^{]*/, "")
+        gsub(/ -fopenmp/, " @openmp")
+        gsub(/ -f[^ ]*/, "")
+        gsub(/ @openmp/, " -fopenmp")
         printf "%s%s\n}", count++ ? "," : "", $0
     }
     END { print "]" }' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
@@ -26,10 +30,11 @@ common=$({
     cat "$build/tidy/compile_commands.json"
     echo "$checks"
 } | sha256sum | cut -d' ' -f1)
-# omp.h is gcc's; alone in a folder, for gcc's stdatomic.h must not stand in for clang's.
+# omp.h is gcc's: alone in a folder, for gcc's stdatomic.h must not stand in for clang's, and without the
+# attribute's arguments that clang does not know.
 gcc_headers=$build/tidy/gcc
 mkdir -p "$gcc_headers"
-ln -sf "$(gcc -print-file-name=include)/omp.h" "$gcc_headers/omp.h"
+sed -E 's/__malloc__ *\([^)]*\)/__malloc__/g' "$(gcc -print-file-name=include)/omp.h" >"$gcc_headers/omp.h"
 
 look_at() {
     local file=$1 stamp digest

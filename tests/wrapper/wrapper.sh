@@ -166,11 +166,14 @@ fact_running_needs_no_node() {
     check '! called apt-get'
 }
 
-fact_the_build_is_configured_once_and_again_after_a_move() {
+fact_the_build_is_configured_once_and_again_after_a_move_or_an_installation() {
     call build
     check 'called cmake'
     call build
     check '! called cmake'
+    offered chromium chromium
+    call test
+    check 'called cmake'
     sed -i 's/INTERNAL=.*/INTERNAL=elsewhere/' "$tree/build/CMakeCache.txt"
     call build
     check 'called cmake'
