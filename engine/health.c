@@ -48,12 +48,14 @@ static bool find_sickness(const Scene *scene, const Plan *plan, const State *sta
     if (sums->sick >= 0)
         return snprintf(text, (size_t)size, "particle %d: not a number at t = %.4f s", sums->sick,
                         state->time);
-    if (sums->escaped >= 0)
-        return snprintf(text, (size_t)size, "particle %d: left the room at t = %.4f s",
-                        sums->escaped, state->time);
-    double excess = maxd(sums->largest_excess, -sums->smallest_excess);
-    if (excess > HEALTH_EXCESS_LIMIT)
-        return snprintf(text, (size_t)size, "fluid: density error %.3g at t = %.4f s; limit %.3g",
+    if (sums->lost_count > HEALTH_LOST_LIMIT * plan->fluid_count)
+        return snprintf(text, (size_t)size,
+                        "fluid: %d particles beyond the walls at t = %.4f s; limit %g of all",
+                        sums->lost_count, state->time, HEALTH_LOST_LIMIT);
+    double excess = sums->largest_excess > -sums->smallest_excess ? sums->largest_excess
+                                                                  : sums->smallest_excess;
+    if (fabs(excess) > HEALTH_EXCESS_LIMIT)
+        return snprintf(text, (size_t)size, "fluid: density error %+.3g at t = %.4f s; limit %.3g",
                         excess, state->time, HEALTH_EXCESS_LIMIT);
     if (sums->largest_speed > HEALTH_SPEED_LIMIT * plan->sound_speed)
         return snprintf(text, (size_t)size, "fluid: speed %.3g m/s at t = %.4f s; limit %.3g m/s",
@@ -70,6 +72,15 @@ static bool find_sickness(const Scene *scene, const Plan *plan, const State *sta
     return false;
 }
 
+/// Spray over a wall is not sick, but never silent.
+static void note_lost(State *state, int lost)
+{
+    if (lost > state->health.lost && state->health.status == HEALTH_GOOD)
+        snprintf(state->health.message, sizeof state->health.message,
+                 "%d particles flew over the walls by t = %.3f s", lost, state->time);
+    state->health.lost = lost;
+}
+
 bool health_judge(const Scene *scene, const Plan *plan, State *state, const ParticleSums *sums,
                   Error *error)
 {
@@ -83,6 +94,7 @@ bool health_judge(const Scene *scene, const Plan *plan, State *state, const Part
         state->density_error = maxd(sums->largest_excess, -sums->smallest_excess);
         state->largest_density_error = maxd(state->largest_density_error, state->density_error);
         state->largest_speed = sums->largest_speed;
+        note_lost(state, sums->lost_count);
         return true;
     }
     snprintf(state->health.message, sizeof state->health.message, "%s", text);

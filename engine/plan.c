@@ -14,7 +14,7 @@
 #include "waves.h"
 
 /// c0 dt/h. The leapfrog of backend.h holds 1.2 in a still tank (docs/performance.md).
-static const double COURANT = 1.0;
+static const double COURANT = 1.1;
 
 static void choose_sound_speed(const Scene *scene, Plan *plan)
 {

@@ -29,6 +29,22 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     s.level = scene->fluid.level;
     s.largest_travel = 0.25 * plan->largest_speed * plan->time_step;
     s.pair_mask = plan->pair_mask;
+    const double low[3] = {d->min.x, d->min.y, d->min.z};
+    // spray may fly; waves of a basin must stay inside
+    const double high[3] = {d->max.x, d->max.y, INFINITY};
+    for (int a = 0; a < 3; a++) {
+        bool any = a == 1 && d->dimensions == 2;
+        s.inside_min[a] = any ? -INFINITY : low[a];
+        s.inside_max[a] = any ? INFINITY : high[a];
+    }
+    bool waves = scene->waves.kind != WAVES_NONE;
+    bool ring = waves && d->kind == DOMAIN_BASIN, piston = waves && d->kind == DOMAIN_FLUME;
+    for (int a = 0; a < 3; a++) {
+        bool open = (a < 2 && ring) || (a == 1 && d->dimensions == 2);
+        s.barrier_min[a] = open || (a == 0 && piston) ? -INFINITY : low[a];
+        s.barrier_max[a] = open || a == 2 ? INFINITY : high[a];
+    }
+    s.barrier_top = d->max.z;
     // dummies behind the walls, waves of the ring, bodies that stick out, spray above
     double side = (plan->wall_layers + 1) * s.spacing;
     if (scene->waves.kind != WAVES_NONE) side += scene->waves.height_limits.max;

@@ -16,6 +16,7 @@ typedef struct HealthRecord {
     HealthStatus status;
     char message[256]; ///< effect, particle or node, time, value and violated limit
     int recoveries;    ///< roll-backs so far
+    int lost;          ///< particles beyond the walls now
     int tries;         ///< halvings of the step now in force
 } HealthRecord;
 

@@ -13,6 +13,7 @@ static void write_health(Json *json, const SummaryInfo *info)
     json_string(json, "status", failed ? "failed" : words[health->status]);
     json_string(json, "message", failed ? info->message : health->message);
     json_integer(json, "recoveries", health->recoveries);
+    json_integer(json, "lost_particles", health->lost);
     json_object_end(json);
 }
 

@@ -37,7 +37,10 @@ typedef struct ParticleStart {
 
 typedef struct BackendSetup {
     int dimensions, threads, body_count;
-    double room_min[3], room_max[3];                 ///< all that coordinates must reach [m]
+    double room_min[3], room_max[3];       ///< all that coordinates must reach [m]
+    double inside_min[3], inside_max[3];   ///< between the walls, above the bed [m]
+    double barrier_min[3], barrier_max[3]; ///< planes of fixed walls and bed [m]; infinite = none
+    double barrier_top;                    ///< z of the walls' upper edge [m]
     double spacing, smoothing_length, particle_mass; ///< [m], [m], [kg]
     double rest_density, sound_speed, alpha, delta;
     double gravity, level; ///< [m/s^2], still-water z [m]
@@ -85,8 +88,7 @@ typedef struct ParticleSums {
     double largest_speed;                   ///< [m/s]
     double smallest_excess, largest_excess; ///< rho/rho0 - 1 [-]
     int sick;                               ///< id of a particle with a not-a-number, -1 = none
-    int escaped;                            ///< id of a particle that left the room, -1 = none
-    int lost_count;                         ///< particles beyond walls or bed
+    int lost_count;                         ///< particles over a spacing beyond walls or bed
 } ParticleSums;
 
 /// Wall time of the last forces + advance [s], by what it was spent on.

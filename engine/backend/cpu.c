@@ -2,6 +2,7 @@
 /// cpu_probe.c.
 #include "backend/cpu.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -104,9 +105,23 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
         return error_set(error, ERROR_INPUT,
                          "fluid.spacing_m = %g: the domain needs %zu sorting bins; at most %d",
                          setup->spacing, grid_key_count(&b->grid), INT32_MAX);
+    for (int a = 0; a < 3; a++) {
+        b->inside_min[a] = to_coordinate(&b->grid, a, setup->inside_min[a] - setup->spacing);
+        b->inside_max[a] = to_coordinate(&b->grid, a, setup->inside_max[a] + setup->spacing);
+    }
+    for (int a = 0; a < 3; a++) {
+        bool low = isfinite(setup->barrier_min[a]), high = isfinite(setup->barrier_max[a]);
+        b->barrier_min[a] = low ? to_coordinate(&b->grid, a, setup->barrier_min[a]) : 0;
+        b->barrier_max[a] =
+            high ? to_coordinate(&b->grid, a, setup->barrier_max[a]) : COORDINATE_END;
+    }
+    b->barrier_top = to_coordinate(&b->grid, 2, setup->barrier_top);
+    b->barrier_depth = (int32_t)(2 * setup->spacing / b->grid.unit);
     TRY(take_arrays(b, start, arena, error));
     place_particles(b, start);
     b->sweep = make_sweep(b);
+    b->excess_floor =
+        (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);
     b->table = sweep_table_choose();
     b->first_step = true;
     set_sort(&b->fixed, &b->grid, b->histogram, setup->threads);

@@ -9,6 +9,7 @@ struct Backend {
     BackendSetup setup;
     Grid grid;
     double skin;
+    float excess_floor; ///< least density excess [-]
     ParticleSet fluid, fixed, moving;
     ClusterList fluid_fluid, fluid_fixed, fluid_moving, fixed_fluid, moving_fluid;
     Vec3 *moving_reference; ///< by id
@@ -16,10 +17,12 @@ struct Backend {
     int32_t *histogram;
     const SweepTable *table;
     Sweep sweep;
-    bool sorted;                        ///< lists hold
-    double travel_fluid, travel_moving; ///< since the last sort [m]
-    double step_travel;                 ///< of the last step, both together [m]
-    bool first_step;                    ///< dummies have no velocity yet
+    int32_t inside_min[3], inside_max[3]; ///< a spacing beyond the walls [unit]
+    int32_t barrier_min[3], barrier_max[3], barrier_top, barrier_depth; ///< [unit]
+    bool sorted;                                                        ///< lists hold
+    double travel_fluid, travel_moving;                                 ///< since the last sort [m]
+    double step_travel; ///< of the last step, both together [m]
+    bool first_step;    ///< dummies have no velocity yet
     int64_t sorts;
     double clock[CLOCK_COUNT];
 };

@@ -105,15 +105,42 @@ static void block_drift(const Backend *b, ParticleSet *f, int begin, int end, fl
     float scale = (float)(dt / b->grid.unit);
     for (int a = 0; a < 3; a++) {
         int32_t *p = f->position[a];
-        const float *v = f->field[VELOCITY_X + a];
+        float *v = f->field[VELOCITY_X + a];
         for (int i = begin; i < end; i++) {
             float step = v[i] * scale;
             // an insane step must not overflow the conversion; health finds the particle
             step = step > 5e8f ? 5e8f : (step < -5e8f ? -5e8f : step);
             int32_t whole = (int32_t)(step + (step < 0 ? -0.5f : 0.5f));
             int32_t moved = p[i] + whole;
-            moved = moved < 0 ? 0 : (moved > COORDINATE_END - 1 ? COORDINATE_END - 1 : moved);
+            // what flew over a wall comes to rest at the room's end, out of everybody's reach
+            if (moved < 0 || moved > COORDINATE_END - 1) {
+                moved = moved < 0 ? 0 : COORDINATE_END - 1;
+                v[i] = 0;
+            }
             p[i] = f->id[i] >= 0 ? moved : PADDING;
+        }
+    }
+}
+
+/// The last barrier at fixed planes: a jet one particle thin carries no pressure that dummies could
+/// extrapolate, and would seep through. What is up to two spacings behind a plane goes back onto it
+/// and loses its speed into it; what flew over the walls stays out.
+static void block_barrier(const Backend *b, ParticleSet *f, int begin, int end)
+{
+    for (int a = 0; a < 3; a++) {
+        int32_t *p = f->position[a];
+        const int32_t *z = f->position[2];
+        float *v = f->field[VELOCITY_X + a];
+        int32_t low = b->barrier_min[a], high = b->barrier_max[a], deep = b->barrier_depth;
+        for (int i = begin; i < end; i++) {
+            if (f->id[i] < 0 || z[i] > b->barrier_top) continue;
+            if (p[i] < low && p[i] > low - deep) {
+                p[i] = low;
+                v[i] = maxf(v[i], 0);
+            } else if (p[i] > high && p[i] < high + deep) {
+                p[i] = high;
+                v[i] = minf(v[i], 0);
+            }
         }
     }
 }
@@ -214,9 +241,13 @@ static void block_finish(Backend *b, int begin, int end, float dt, ParticleSums 
     float factor = dt * b->sweep.constants.density_factor;
     float tait = b->sweep.tait_b, rho0 = b->sweep.rest_density;
     float *excess = f->field[EXCESS];
-    for (int i = begin; i < end; i++)
-        excess[i] += f->id[i] >= 0 ? factor * f->rate[0][i] : 0.0f;
+    const float floor = b->excess_floor;
+    for (int i = begin; i < end; i++) {
+        float next = excess[i] + (f->id[i] >= 0 ? factor * f->rate[0][i] : 0.0f);
+        excess[i] = next < floor ? floor : next;
+    }
     block_drift(b, f, begin, end, 0.5f * dt);
+    block_barrier(b, f, begin, end);
     for (int i = begin; i < end; i++) {
         float rho = rho0 * (1.0f + excess[i]);
         f->pressure[i] = tait_pressure(excess[i], tait) / (rho * rho);
@@ -229,9 +260,11 @@ static void block_finish(Backend *b, int begin, int end, float dt, ParticleSums 
         sums->largest_speed = maxd(sums->largest_speed, speed2);
         sums->smallest_excess = mind(sums->smallest_excess, excess[i]);
         sums->largest_excess = maxd(sums->largest_excess, excess[i]);
+        bool lost = false;
         for (int a = 0; a < 3; a++)
-            if (f->position[a][i] <= 0 || f->position[a][i] >= COORDINATE_END - 1)
-                sums->escaped = f->id[i];
+            lost = lost || f->position[a][i] < b->inside_min[a] ||
+                   f->position[a][i] > b->inside_max[a];
+        sums->lost_count += lost;
     }
 }
 
@@ -241,7 +274,7 @@ static ParticleSums no_sums(void)
     sums.largest_speed = 0;
     sums.smallest_excess = 1e30;
     sums.largest_excess = -1e30;
-    sums.sick = sums.escaped = -1;
+    sums.sick = -1;
     sums.lost_count = 0;
     return sums;
 }
@@ -252,7 +285,7 @@ static void merge_sums(ParticleSums *total, const ParticleSums *part)
     total->smallest_excess = mind(total->smallest_excess, part->smallest_excess);
     total->largest_excess = maxd(total->largest_excess, part->largest_excess);
     total->sick = part->sick > total->sick ? part->sick : total->sick;
-    total->escaped = part->escaped > total->escaped ? part->escaped : total->escaped;
+    total->lost_count += part->lost_count;
 }
 
 static void finish_fluid(Backend *b, float dt, ParticleSums *sums)

@@ -19,6 +19,14 @@ FN float tait_pressure(float s, float b)
     return b * s * sum;
 }
 
+/// Least density excess [-]: water bears the tension of a column of h/2, -g h/(2 c0^2), and tears
+/// beyond. A lone particle that leaves others or a wall keeps the dilation of its last neighbours:
+/// its density falls without bound, the next it meets is pulled in, and no wall pushes it back.
+FN double tension_floor(double gravity, double h, double sound_speed)
+{
+    return -0.5 * gravity * h / (sound_speed * sound_speed);
+}
+
 /// Inverse: s = (1 + p/b)^(1/7) - 1 [-], by its series; error below 1e-6 for p/b < 0.2.
 FN float tait_excess(float p, float b)
 {

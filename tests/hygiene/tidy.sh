@@ -34,6 +34,7 @@ common=$({
 # attribute's arguments that clang does not know.
 gcc_headers=$build/tidy/gcc
 mkdir -p "$gcc_headers"
+rm -f "$gcc_headers/omp.h" # an earlier version left a link to gcc's own file here
 sed -E 's/__malloc__ *\([^)]*\)/__malloc__/g' "$(gcc -print-file-name=include)/omp.h" >"$gcc_headers/omp.h"
 
 look_at() {
