@@ -16,6 +16,7 @@ const { column, rows, summary } = runCase(program, file, 60, ['--commands', comm
 const time = column('t_s');
 fact('every value is a number', rows.length, rows.every((row) => row.every(Number.isFinite)));
 fact('health', summary.health.status, summary.health.status === 'good');
+fact('lost particles', summary.health.lost_particles, summary.health.lost_particles === 0);
 fact('largest density error', summary.largest_density_error, summary.largest_density_error < 0.015);
 for (const angle of ['roll', 'pitch']) {
   const worst = Math.max(...column(`ship.${angle}_deg`).map(Math.abs));
