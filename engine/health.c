@@ -8,9 +8,11 @@ void health_checkpoint(const Scene *scene, State *state)
 {
     Checkpoint *c = &state->checkpoint;
     if (state->time < c->time + HEALTH_CHECKPOINT_EVERY) return;
-    // healthy for a whole interval: the step may grow again
-    if (state->health.tries > 0) {
-        state->health.tries--;
+    // the step grows again when all went well for a while, longer after each relapse
+    HealthRecord *health = &state->health;
+    if (health->tries > 0 && ++health->good_intervals >= HEALTH_PATIENCE * health->recoveries) {
+        health->good_intervals = 0;
+        health->tries--;
         state->time_step *= 2;
     }
     c->time = state->time;
@@ -106,6 +108,7 @@ bool health_judge(const Scene *scene, const Plan *plan, State *state, const Part
     }
     state->health.status = HEALTH_RECOVERED;
     state->health.recoveries++;
+    state->health.good_intervals = 0;
     state->time_step *= 0.5;
     return true;
 }

@@ -7,10 +7,13 @@
 
 /// Limits that a healthy run never touches.
 static const double HEALTH_EXCESS_LIMIT = 0.25;    ///< |rho/rho0 - 1| [-]
-static const double HEALTH_SPEED_LIMIT = 2.0;      ///< fluid speed over sound speed [-]
+static const double HEALTH_SPEED_LIMIT = 0.6;      ///< fluid speed over sound speed [-]
 static const double HEALTH_CHECKPOINT_EVERY = 0.1; ///< simulated time between checkpoints [s]
 static const double HEALTH_LOST_LIMIT = 0.01;      ///< particles beyond the walls, of all [-]
-enum { HEALTH_TRIES = 4 };                         ///< roll-backs to one checkpoint
+enum {
+    HEALTH_TRIES = 4,    ///< halvings of the step
+    HEALTH_PATIENCE = 5, ///< healthy checkpoints per roll-back before the step grows again
+};
 
 /// Take a checkpoint when the last is old enough.
 void health_checkpoint(const Scene *scene, State *state);

@@ -14,10 +14,11 @@
 /// What went wrong, where, when, against which limit; see health.h.
 typedef struct HealthRecord {
     HealthStatus status;
-    char message[256]; ///< effect, particle or node, time, value and violated limit
-    int recoveries;    ///< roll-backs so far
-    int lost;          ///< particles beyond the walls now
-    int tries;         ///< halvings of the step now in force
+    char message[256];  ///< effect, particle or node, time, value and violated limit
+    int recoveries;     ///< roll-backs so far
+    int lost;           ///< particles beyond the walls now
+    int tries;          ///< halvings of the step now in force
+    int good_intervals; ///< checkpoints since the last roll-back
 } HealthRecord;
 
 /// A copy of everything that changes, taken while all was well.
