@@ -74,12 +74,12 @@ static bool find_sickness(const Scene *scene, const Plan *plan, const State *sta
     return false;
 }
 
-/// Spray over a wall is not sick, but never silent.
+/// Water over or through a wall is not sick while it is little, but never silent.
 static void note_lost(State *state, int lost)
 {
     if (lost > state->health.lost && state->health.status == HEALTH_GOOD)
         snprintf(state->health.message, sizeof state->health.message,
-                 "%d particles flew over the walls by t = %.3f s", lost, state->time);
+                 "particles beyond the walls: %d at t = %.3f s", lost, state->time);
     state->health.lost = lost;
 }
 
