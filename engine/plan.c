@@ -13,7 +13,7 @@
 #include "fill.h"
 #include "waves.h"
 
-/// c0 dt/h. The leapfrog of backend.h holds 1.2 in a still tank (docs/performance.md).
+/// c0 dt/h. What was tried of other values is in docs/performance.md.
 static const double COURANT = 1.1;
 
 static void choose_sound_speed(const Scene *scene, Plan *plan)

@@ -6,7 +6,7 @@
 ///     v^{n+1/2} = v^{n-1/2} + dt a(x^n, rho^n)
 ///     x^{n+1/2} = x^n + dt/2 v^{n+1/2};  rho^{n+1} = rho^n + dt (drho/dt)(x^{n+1/2}, v^{n+1/2})
 ///     x^{n+1}   = x^{n+1/2} + dt/2 v^{n+1/2}
-/// stable to c0 dt/h of about 1.2 (docs/performance.md).
+/// A prototype was stable to c0 dt/h of about 1.2; what is used and was tried: docs/performance.md.
 #ifndef FAIRLEAD_BACKEND_H
 #define FAIRLEAD_BACKEND_H
 

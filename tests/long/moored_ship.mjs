@@ -27,9 +27,9 @@ fact('the line pulls in every sample, N at least', Math.min(...tension), Math.mi
 for (const gauge of ['g1', 'g2'])
   for (const [from, to] of [[5, 30], [40, 60]]) {
     const ratio = waveHeight(time, column(`${gauge}.elevation_m`), from, to) / height;
-    fact(`${gauge} height over asked, ${from} to ${to} s`, ratio.toFixed(4), true);
+    console.log(`     ${gauge} height over asked, ${from} to ${to} s: ${ratio.toFixed(4)}`);
   }
 const far = waveHeight(time, column('g1.elevation_m'), 5, 30) / height;
 fact('height away from the ship within 8 %', far.toFixed(4), Math.abs(far - 1) < 0.08);
-fact('simulated seconds per second', (summary.simulated_s / summary.wall_s).toFixed(3), true);
+console.log(`     simulated seconds per second: ${(summary.simulated_s / summary.wall_s).toFixed(3)}`);
 finish();
