@@ -104,6 +104,17 @@ typedef enum BackendClock {
     CLOCK_COUNT
 } BackendClock;
 
+/// What a bench asks; counting takes some tenths of a second.
+typedef struct BackendStatistics {
+    int fluid_count, dummy_count;
+    double
+        neighbours_fluid; ///< mean number of water neighbours of a water particle, itself not [-]
+    double neighbours_dummy; ///< mean number of its dummy neighbours [-]
+    int sample;              ///< water particles these means are taken over
+    int64_t sorts;           ///< since creation, each with new neighbour lists
+    size_t list_bytes;       ///< set aside for the lists, beside the arena [byte]
+} BackendStatistics;
+
 typedef struct Backend Backend; ///< opaque: the backend's own data
 
 typedef struct BackendTable {
@@ -131,6 +142,7 @@ typedef struct BackendTable {
     void (*save)(const Backend *backend, void *to);
     void (*restore)(Backend *backend, const void *from);
     const double *(*clocks)(const Backend *backend); ///< [CLOCK_COUNT] sums since creation [s]
+    void (*statistics)(const Backend *backend, BackendStatistics *statistics);
     /// Relative extra time of a pair effect's bit in its sweep, measured on the present state [-].
     double (*pair_cost)(Backend *backend, unsigned bit);
     /// Acceleration [m/s^2] and (drho/dt)/rho0 [1/s] of each particle, in order of creation; for

@@ -348,6 +348,7 @@ const BackendTable *backend_cpu(void)
         .save = cpu_save,
         .restore = cpu_restore,
         .clocks = cpu_clocks,
+        .statistics = cpu_statistics,
         .pair_cost = cpu_pair_cost,
         .probe_rates = cpu_probe_rates,
     };

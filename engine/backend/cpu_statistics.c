@@ -1,0 +1,67 @@
+/// Counts of the CPU backend that nobody needs while it runs: how many neighbours a particle has,
+/// how large the lists are. Neighbours are counted from positions alone, never from the lists, so
+/// that a list that loses some would be seen.
+#include <string.h>
+
+#include "backend/cpu.h"
+
+/// Distances that may be looked at: some tenths of a second of one core.
+static const double DISTANCES_MAX = 1e9;
+
+/// Particles of `set` nearer than the support to slot `self` of the fluid, itself included.
+static int count_near(const ParticleSet *set, const ParticleSet *fluid, int self,
+                      float support_squared)
+{
+    int slots = set->cluster_count * CLUSTER, near = 0;
+    const int32_t *px = set->position[0], *py = set->position[1], *pz = set->position[2];
+    int32_t x = fluid->position[0][self], y = fluid->position[1][self];
+    int32_t z = fluid->position[2][self];
+#pragma omp simd reduction(+ : near)
+    for (int s = 0; s < slots; s++) {
+        float dx = (float)(x - px[s]), dy = (float)(y - py[s]), dz = (float)(z - pz[s]);
+        near += (dx * dx + dy * dy + dz * dz < support_squared) & (set->id[s] >= 0);
+    }
+    return near;
+}
+
+/// Neighbours of fluid particles at even distances along the slots, all of them where few.
+static void count_neighbours(const Backend *b, BackendStatistics *statistics)
+{
+    const ParticleSet *fluid = &b->fluid;
+    float support_squared = b->sweep.constants.support_squared;
+    int slots = fluid->cluster_count * CLUSTER, sample = 0;
+    double all = (double)fluid->count + b->fixed.count + b->moving.count;
+    double stride = maxd(1, slots * all / DISTANCES_MAX);
+    int tries = (int)(slots / stride);
+    int64_t near_fluid = 0, near_dummies = 0;
+#pragma omp parallel for schedule(static) num_threads(b->setup.threads)                            \
+    reduction(+ : near_fluid, near_dummies, sample)
+    for (int n = 0; n < tries; n++) {
+        int slot = (int)(n * stride);
+        if (fluid->id[slot] < 0) continue;
+        sample++;
+        near_fluid += count_near(fluid, fluid, slot, support_squared) - 1;
+        near_dummies += count_near(&b->fixed, fluid, slot, support_squared) +
+                        count_near(&b->moving, fluid, slot, support_squared);
+    }
+    statistics->sample = sample;
+    statistics->neighbours_fluid = (double)near_fluid / (sample ? sample : 1);
+    statistics->neighbours_dummy = (double)near_dummies / (sample ? sample : 1);
+}
+
+static size_t list_bytes(const ClusterList *list)
+{
+    return list->entry_capacity * sizeof *list->entry;
+}
+
+void cpu_statistics(const Backend *b, BackendStatistics *statistics)
+{
+    memset(statistics, 0, sizeof *statistics);
+    statistics->fluid_count = b->fluid.count;
+    statistics->dummy_count = b->fixed.count + b->moving.count;
+    statistics->sorts = b->sorts;
+    statistics->list_bytes = list_bytes(&b->fluid_fluid) + list_bytes(&b->fluid_fixed) +
+                             list_bytes(&b->fluid_moving) + list_bytes(&b->fixed_fluid) +
+                             list_bytes(&b->moving_fluid);
+    count_neighbours(b, statistics);
+}
