@@ -5,6 +5,7 @@
 #ifndef FAIRLEAD_ENGINE_H
 #define FAIRLEAD_ENGINE_H
 
+#include "bench.h"
 #include "command.h"
 #include "plan.h"
 #include "scene.h"
