@@ -5,8 +5,6 @@
 #include "interrupt.h"
 #include "websocket.h"
 
-#define DEFAULT_CASE "cases/moored_ship.json"
-
 typedef struct ServeOptions {
     const char *path, *bind, *backend, *data, *page;
     int port, threads;
@@ -41,17 +39,6 @@ static OptionsResult read_options(int count, char **words, ServeOptions *to, Err
         .notes = "CASE is a JSON file (default " DEFAULT_CASE ").",
     };
     return options_parse(&table, count, words, stdout, error);
-}
-
-/// The default case lies in the working folder, or beside the folder of the program.
-static const char *find_case(const char *path, char *room, int size)
-{
-    if (path) return path;
-    if (!access(DEFAULT_CASE, R_OK)) return DEFAULT_CASE;
-    char folder[SCENE_PATH_SIZE];
-    program_folder(folder, sizeof folder);
-    snprintf(room, (size_t)size, "%s/../%s", folder, DEFAULT_CASE);
-    return access(room, R_OK) ? DEFAULT_CASE : room;
 }
 
 /// The page lies beside the program's folder, or where it was built.
@@ -145,8 +132,8 @@ int command_serve(int count, char **words)
     Prepared prepared;
     interrupt_catch();
     interrupt_block();
-    if (!prepare(find_case(options.path, path, sizeof path), &options.overrides, &engine, &prepared,
-                 &error))
+    if (!options.path) options.path = find_default_case(path, sizeof path);
+    if (!prepare(options.path, &options.overrides, &engine, &prepared, &error))
         return report(&error);
     WebServer *server = web_server_create(&web, &error);
     bool good = server && serve_case(&options, server, &prepared, &error);

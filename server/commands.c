@@ -50,6 +50,15 @@ void program_folder(char *folder, int size)
     snprintf(folder, (size_t)size, "%s", dirname(path));
 }
 
+const char *find_default_case(char *room, int size)
+{
+    if (!access(DEFAULT_CASE, R_OK)) return DEFAULT_CASE;
+    char folder[SCENE_PATH_SIZE];
+    program_folder(folder, sizeof folder);
+    snprintf(room, (size_t)size, "%s/../%s", folder, DEFAULT_CASE);
+    return access(room, R_OK) ? DEFAULT_CASE : room;
+}
+
 static const struct {
     const char *name;
     int (*function)(int count, char **words);
@@ -58,6 +67,7 @@ static const struct {
     {"serve", command_serve, "simulate, draw and show it in a web page where it can be steered"},
     {"run", command_run, "simulate without a page; write series, summary, journal and frames"},
     {"explain", command_explain, "say what would be simulated, why, and how fast"},
+    {"bench", command_bench, "time steps of a scene of so many particles on this machine"},
 };
 enum { SUBCOMMAND_COUNT = sizeof subcommands / sizeof *subcommands };
 

@@ -15,6 +15,7 @@ enum {
 int command_serve(int count, char **words);
 int command_run(int count, char **words);
 int command_explain(int count, char **words);
+int command_bench(int count, char **words);
 
 /// All subcommands by name. @return the exit code
 int fairlead_main(int argc, char **argv);
@@ -36,5 +37,10 @@ int report(const Error *error);
 
 /// Folder of the running program, "." when unknown.
 void program_folder(char *folder, int size);
+
+#define DEFAULT_CASE "cases/moored_ship.json"
+/// The default case lies in the working folder, or beside the folder of the program.
+/// @param room  for a path that has to be put together [size]
+const char *find_default_case(char *room, int size);
 
 #endif

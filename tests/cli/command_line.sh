@@ -111,5 +111,24 @@ if command -v node >/dev/null; then
         <"$work/explained"
 fi
 
+fact bench_has_help 0 '--particles N' '' "$program" bench --help
+fact bench_refuses_an_unknown_scene 2 '' 'still|dam|ship' "$program" bench --scene lake
+fact bench_refuses_too_few_particles 2 '' 'from 1000 to' "$program" bench --particles 10
+fact bench_refuses_a_narrow_kernel 2 '' 'from 1.2 to 3' "$program" bench --smoothing-ratio 0.9
+fact bench_refuses_too_few_steps 2 '' 'from 5 to' "$program" bench --steps 2
+fact bench_takes_no_case 2 '' 'one word too many' "$program" bench cases/still_water.json
+fact bench_refuses_what_does_not_fit 2 '' 'may be used' "$program" bench --particles 100000000
+fact bench_prints_a_table 0 'one momentum and one density pass' '' "$program" bench --particles 3000 \
+    --steps 5 --scene dam --threads 1
+if command -v node >/dev/null; then
+    for scene in still dam ship; do
+        fact "bench_times_the_${scene}" 0 '"scene":"'"$scene"'"' '' "$program" bench --particles 8000 \
+            --steps 10 --scene "$scene" --json
+        cp "$work/out" "$work/bench.json"
+        holds "bench_of_the_${scene}_has_what_was_promised" \
+            node tests/cli/bench_report.mjs "$work/bench.json"
+    done
+fi
+
 echo "$((count - failed)) passed, $failed failed"
 [ "$failed" -eq 0 ]
