@@ -52,44 +52,79 @@ static Vec3 lattice_point(const Lattice *l, int i, int j, int k)
                 l->min.z + (k + 0.5) * l->pitch[2]);
 }
 
-static void add_fluid(const Scene *scene, const Plan *plan, const WaveState *waves, Fill *fill,
-                      Vec3 mean, double surface)
+/// One box of water that is being filled.
+typedef struct Box {
+    const Scene *scene;
+    const Plan *plan;
+    const WaveState *waves; ///< displace water at t = 0; NULL = at rest
+    Lattice lattice;
+    double surface;    ///< z [m]
+    double layer_mass; ///< of one layer: column_mass [m]
+} Box;
+
+static Vec3 mean_place(const Box *box, int i, int j, int k)
 {
-    const Fluid *fluid = &scene->fluid;
-    Vec3 place = mean, velocity = vec3(0, 0, 0);
-    double below = surface - mean.z;
+    Vec3 mean = lattice_point(&box->lattice, i, j, k);
+    double mass = (box->lattice.count[2] - k - 0.5) * box->layer_mass;
+    mean.z = box->surface - column_depth(box->scene, box->plan, mass);
+    return mean;
+}
+
+static void write_fluid(const Box *box, Fill *fill, int n, Vec3 mean, Vec3 shift)
+{
+    const WaveState *waves = box->waves;
+    double below = box->surface - mean.z;
+    fill->fluid_position[n] = vec3_add(mean, shift);
+    fill->fluid_velocity[n] = vec3(0, 0, 0);
     if (waves) {
-        Vec3 shift = waves_displacement(waves, mean, 0);
-        place = vec3_add(mean, shift);
-        velocity = waves_orbit_velocity(waves, mean, 0);
+        fill->fluid_velocity[n] = waves_orbit_velocity(waves, mean, 0);
         // a particle keeps its mean pressure but for what deep water theory leaves out:
         // p_dynamic/(rho g) - zeta = eta cosh K/cosh kd - zeta
         const WaveTrain *t = &waves->layers[0].train;
         double k = t->wave_number, d = t->depth;
         double ratio = cosh(k * (mean.z - t->level + d)) / cosh(k * d);
-        double eta = waves_elevation(waves, place.x, place.y, 0);
-        below += eta * ratio - shift.z;
+        Vec3 place = fill->fluid_position[n];
+        below += waves_elevation(waves, place.x, place.y, 0) * ratio - shift.z;
     }
-    if (carve_hits(scene, plan, place)) return;
-    int n = fill->fluid_count++;
-    if (!fill->fluid_position) return;
-    fill->fluid_position[n] = place;
-    fill->fluid_velocity[n] = velocity;
-    fill->fluid_excess[n] = (float)hydrostatic_excess(below, fluid->gravity, plan->sound_speed);
+    fill->fluid_excess[n] =
+        (float)hydrostatic_excess(below, box->scene->fluid.gravity, box->plan->sound_speed);
 }
 
+/// The lattice's plane i: counts its water and, when `first` is not negative, writes it from there
+/// on.
+static int fill_plane(const Box *box, Fill *fill, int i, int first)
+{
+    int count = 0;
+    if (first < 0 && !box->scene->body_count) // nothing carves
+        return box->lattice.count[1] * box->lattice.count[2];
+    for (int j = 0; j < box->lattice.count[1]; j++)
+        for (int k = 0; k < box->lattice.count[2]; k++) {
+            Vec3 mean = mean_place(box, i, j, k), shift = vec3(0, 0, 0);
+            if (box->waves) shift = waves_displacement(box->waves, mean, 0);
+            if (carve_hits(box->scene, box->plan, vec3_add(mean, shift))) continue;
+            if (first >= 0) write_fluid(box, fill, first + count, mean, shift);
+            count++;
+        }
+    return count;
+}
+
+/// Planes are counted side by side, told their place one after another, then written side by side.
 static void fill_box(const Scene *scene, const Plan *plan, const WaveState *waves, Fill *fill,
                      Vec3 min, Vec3 max)
 {
-    Lattice l = lattice_of(min, max, scene->fluid.spacing, scene->domain.dimensions);
-    double mass = column_mass(scene, plan, max.z - min.z) / l.count[2];
-    for (int i = 0; i < l.count[0]; i++)
-        for (int j = 0; j < l.count[1]; j++)
-            for (int k = 0; k < l.count[2]; k++) {
-                Vec3 mean = lattice_point(&l, i, j, k);
-                mean.z = max.z - column_depth(scene, plan, (l.count[2] - k - 0.5) * mass);
-                add_fluid(scene, plan, waves, fill, mean, max.z);
-            }
+    Box box = {.scene = scene, .plan = plan, .waves = waves, .surface = max.z};
+    box.lattice = lattice_of(min, max, scene->fluid.spacing, scene->domain.dimensions);
+    box.layer_mass = column_mass(scene, plan, max.z - min.z) / box.lattice.count[2];
+#pragma omp parallel for ordered schedule(static, 1) num_threads(plan->options.threads)
+    for (int i = 0; i < box.lattice.count[0]; i++) {
+        int first, count = fill_plane(&box, fill, i, -1);
+#pragma omp ordered
+        {
+            first = fill->fluid_count;
+            fill->fluid_count += count;
+        }
+        if (fill->fluid_position) fill_plane(&box, fill, i, first);
+    }
 }
 
 static double box_mass(const Scene *scene, const Plan *plan, Vec3 min, Vec3 max)
@@ -183,10 +218,8 @@ void fill_particles(const Scene *scene, const Plan *plan, Fill *fill)
 bool fill_create(const Scene *scene, const Plan *plan, Arena *arena, Fill *fill, Error *error)
 {
     memset(fill, 0, sizeof *fill);
-    fill_particles(scene, plan, fill);
-    size_t fluid = (size_t)fill->fluid_count;
-    size_t dummies =
-        (size_t)fill->wall_count + fill->ring_count + fill->piston_count + fill->body_count;
+    size_t fluid = (size_t)plan->fluid_count;
+    size_t dummies = (size_t)plan->wall_count + (size_t)plan->body_particle_count;
     TRY(fill->fluid_position = arena_take(arena, fluid, sizeof(Vec3), "start.position", error));
     TRY(fill->fluid_velocity = arena_take(arena, fluid, sizeof(Vec3), "start.velocity", error));
     TRY(fill->fluid_excess = arena_take(arena, fluid, sizeof(float), "start.excess", error));

@@ -7,7 +7,7 @@
 #include "plan.h"
 #include "scene.h"
 
-/// Counts, and when `start` has arrays (counts of an earlier call), the particles themselves.
+/// Counts, and when there are arrays for them, the particles themselves.
 typedef struct Fill {
     int fluid_count, wall_count, ring_count, piston_count, body_count;
     double particle_mass; ///< [kg]
@@ -21,7 +21,7 @@ typedef struct Fill {
 /// length, layers, sound speed and bodies by then.
 void fill_particles(const Scene *scene, const Plan *plan, Fill *fill);
 
-/// Room for the counted particles, then the particles.
+/// Room for the particles that the plan counted, then the particles.
 bool fill_create(const Scene *scene, const Plan *plan, Arena *arena, Fill *fill, Error *error);
 
 #endif
