@@ -56,15 +56,26 @@ static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Er
     TRY(set_create(&b->fluid, &b->grid, start->fluid_count, FLUID_FIELDS, arena, error));
     TRY(set_create(&b->fixed, &b->grid, fixed, 0, arena, error));
     TRY(set_create(&b->moving, &b->grid, moving, MOVING_FIELDS, arena, error));
-    TRY(list_create(&b->fluid_fluid, &b->fluid, 120, arena, error));
-    TRY(list_create(&b->fluid_fixed, &b->fluid, 24, arena, error));
-    TRY(list_create(&b->fluid_moving, &b->fluid, 24, arena, error));
-    TRY(list_create(&b->fixed_fluid, &b->fixed, 64, arena, error));
-    TRY(list_create(&b->moving_fluid, &b->moving, 64, arena, error));
+    int slots = b->fluid.slot_capacity;
+    slots = slots > b->fixed.slot_capacity ? slots : b->fixed.slot_capacity;
+    slots = slots > b->moving.slot_capacity ? slots : b->moving.slot_capacity;
+    TRY(scratch_create(&b->scratch, &b->grid, slots, b->setup.threads, arena, error));
+    size_t moving_slots = moving ? (size_t)b->moving.slot_capacity : 0;
+    for (int a = 0; a < 3; a++) {
+        b->fluid.rate[a] = (float *)b->scratch.slot[a];
+        TRY(b->moving.rate[a] =
+                arena_take(arena, moving_slots, sizeof(float), "particles.rate", error));
+        TRY(b->moving.target[a] =
+                arena_take(arena, moving_slots, sizeof(int32_t), "particles.target", error));
+    }
+    TRY(rows_create(&b->rows, &b->grid, arena, error));
+    TRY(list_create(&b->fluid_fluid, &b->fluid, arena, error));
+    TRY(list_create(&b->fluid_fixed, &b->fluid, arena, error));
+    TRY(list_create(&b->fluid_moving, &b->fluid, arena, error));
+    TRY(list_create(&b->fixed_fluid, &b->fixed, arena, error));
+    TRY(list_create(&b->moving_fluid, &b->moving, arena, error));
     TRY(b->moving_reference = arena_take(arena, (size_t)moving, sizeof(Vec3), "references", error));
     TRY(b->moving_owner = arena_take(arena, (size_t)moving, sizeof(int16_t), "owners", error));
-    TRY(b->histogram = arena_take(arena, grid_key_count(&b->grid) + 1, sizeof(int32_t),
-                                  "sort histogram", error));
     return true;
 }
 
@@ -101,10 +112,13 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     b->skin = maxd(0.3 * setup->spacing, mind(6 * setup->largest_travel, 0.8 * setup->spacing));
     b->grid = grid_create(setup->room_min, setup->room_max, setup->dimensions,
                           2 * setup->smoothing_length, b->skin, setup->spacing);
-    if (grid_key_count(&b->grid) > INT32_MAX)
+    double rows = (double)b->grid.slab_rows * b->grid.across_rows;
+    if (rows * b->grid.bins > INT32_MAX)
         return error_set(error, ERROR_INPUT,
-                         "fluid.spacing_m = %g: the domain needs %zu sorting bins; at most %d",
-                         setup->spacing, grid_key_count(&b->grid), INT32_MAX);
+                         "fluid.spacing_m = %g: the domain needs %.3g sorting bins; at most %d",
+                         setup->spacing, rows * b->grid.bins, INT32_MAX);
+    b->rows.spacing = (float)setup->spacing;
+    b->rows.least_margin = 0.02f * (float)setup->spacing;
     for (int a = 0; a < 3; a++) {
         b->inside_min[a] = to_coordinate(&b->grid, a, setup->inside_min[a] - setup->spacing);
         b->inside_max[a] = to_coordinate(&b->grid, a, setup->inside_max[a] + setup->spacing);
@@ -124,7 +138,7 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
         (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);
     b->table = sweep_table_choose();
     b->first_step = true;
-    set_sort(&b->fixed, &b->grid, b->histogram, setup->threads);
+    set_sort(&b->fixed, &b->grid, &b->scratch);
     set_boxes(&b->fixed, 0, b->fixed.cluster_count);
     cpu_update_pressure(b);
     *backend = b;
@@ -136,36 +150,88 @@ static void cpu_destroy(Backend *b)
     ClusterList *lists[] = {&b->fluid_fluid, &b->fluid_fixed, &b->fluid_moving, &b->fixed_fluid,
                             &b->moving_fluid};
     for (int i = 0; i < 5; i++)
-        free(lists[i]->entry);
+        list_destroy(lists[i]);
 }
 
 static const char *cpu_variant(void) { return sweep_table_choose()->level; }
 
-bool cpu_neighbours(Backend *b, Error *error)
+static void refresh_boxes(ParticleSet *set, int threads)
 {
-    double used = b->travel_fluid + maxd(b->travel_fluid, b->travel_moving);
-    // the density sweep looks at half-step places: half of the coming step must fit as well
-    if (b->sorted && used + 0.75 * b->step_travel < b->skin) return true;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int block = 0; block < set->cluster_count; block += 64)
+        set_boxes(set, block, block + 64 < set->cluster_count ? block + 64 : set->cluster_count);
+}
+
+void cpu_refresh_boxes(Backend *b)
+{
+    if (b->boxes_fresh) return;
+    refresh_boxes(&b->fluid, b->setup.threads);
+    refresh_boxes(&b->moving, b->setup.threads);
+    b->boxes_fresh = true;
+}
+
+static bool rebuild_lists(Backend *b)
+{
     int threads = b->setup.threads;
-    set_sort(&b->fluid, &b->grid, b->histogram, threads);
-    cpu_update_pressure(b);
-    set_boxes(&b->fluid, 0, b->fluid.cluster_count);
     bool built = list_build(&b->fluid_fluid, &b->fluid, &b->fluid, &b->grid, true, threads);
     if (b->fixed.count)
         built = built &&
                 list_build(&b->fluid_fixed, &b->fluid, &b->fixed, &b->grid, false, threads) &&
                 list_build(&b->fixed_fluid, &b->fixed, &b->fluid, &b->grid, false, threads);
-    if (b->moving.count) {
-        set_sort(&b->moving, &b->grid, b->histogram, threads);
-        set_boxes(&b->moving, 0, b->moving.cluster_count);
+    if (b->moving.count)
         built = built &&
                 list_build(&b->fluid_moving, &b->fluid, &b->moving, &b->grid, false, threads) &&
                 list_build(&b->moving_fluid, &b->moving, &b->fluid, &b->grid, false, threads);
+    return built;
+}
+
+static void prune_row(Backend *b, int row)
+{
+    double reach = 2 * b->setup.smoothing_length + rows_pruned(&b->rows, row, b->last_step, b->skin);
+    reach /= b->grid.unit;
+    float squared = (float)(reach * reach);
+    int fluid = b->fluid.row_begin[row], fluid_end = b->fluid.row_begin[row + 1];
+    b->table->prune(&b->fluid_fluid, &b->fluid, &b->fluid, fluid, fluid_end, squared);
+    if (b->fixed.count) {
+        b->table->prune(&b->fluid_fixed, &b->fluid, &b->fixed, fluid, fluid_end, squared);
+        b->table->prune(&b->fixed_fluid, &b->fixed, &b->fluid, b->fixed.row_begin[row],
+                        b->fixed.row_begin[row + 1], squared);
     }
-    b->travel_fluid = b->travel_moving = 0;
-    b->sorted = built;
-    b->sorts++;
-    return built || error_set(error, ERROR_SYSTEM, "memory: neighbour lists do not fit");
+    if (b->moving.count) {
+        b->table->prune(&b->fluid_moving, &b->fluid, &b->moving, fluid, fluid_end, squared);
+        b->table->prune(&b->moving_fluid, &b->moving, &b->fluid, b->moving.row_begin[row],
+                        b->moving.row_begin[row + 1], squared);
+    }
+}
+
+void cpu_prune(Backend *b)
+{
+    bool any = false;
+    for (int row = 0; row < b->grid.row_count && !any; row++)
+        any = rows_due(&b->rows, row);
+    if (!any) return;
+    cpu_refresh_boxes(b);
+#pragma omp parallel for schedule(dynamic, 4) num_threads(b->setup.threads)
+    for (int row = 0; row < b->grid.row_count; row++)
+        if (rows_due(&b->rows, row)) prune_row(b, row);
+}
+
+bool cpu_neighbours(Backend *b, Error *error)
+{
+    if (!b->sorted || !rows_lists_hold(&b->rows, &b->grid, b->last_step, b->skin)) {
+        set_sort(&b->fluid, &b->grid, &b->scratch);
+        cpu_update_pressure(b);
+        if (b->moving.count) set_sort(&b->moving, &b->grid, &b->scratch);
+        b->boxes_fresh = false;
+        cpu_refresh_boxes(b);
+        b->sorted = rebuild_lists(b);
+        rows_sorted(&b->rows, &b->grid);
+        b->sorts++;
+        if (!b->sorted)
+            return error_set(error, ERROR_SYSTEM, "memory: neighbour lists do not fit");
+    }
+    cpu_prune(b);
+    return true;
 }
 
 void cpu_sweep_fluid(Backend *b, void (*function)(const Sweep *, int, int))
@@ -182,14 +248,14 @@ void cpu_sweep_fluid(Backend *b, void (*function)(const Sweep *, int, int))
     }
 }
 
-static void boxes_and_zero(ParticleSet *set, int rates, int threads)
+static void zero_rates(Backend *b, int rates)
 {
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int block = 0; block < set->cluster_count; block += 64) {
-        int end = block + 64 < set->cluster_count ? block + 64 : set->cluster_count;
-        set_boxes(set, block, end);
+    ParticleSet *f = &b->fluid;
+#pragma omp parallel for schedule(static) num_threads(b->setup.threads)
+    for (int block = 0; block < f->cluster_count; block += 64) {
+        int end = block + 64 < f->cluster_count ? block + 64 : f->cluster_count;
         for (int a = 0; a < rates; a++)
-            memset(set->rate[a] + block * CLUSTER, 0,
+            memset(f->rate[a] + block * CLUSTER, 0,
                    (size_t)(end - block) * CLUSTER * sizeof(float));
     }
 }
@@ -234,8 +300,7 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
 #define LAP(which) (now = cpu_clock(), b->clock[which] += now - start, start = now)
     TRY(cpu_neighbours(b, error));
     LAP(CLOCK_SORT);
-    boxes_and_zero(&b->fluid, 3, b->setup.threads);
-    boxes_and_zero(&b->moving, 0, b->setup.threads);
+    zero_rates(b, 3);
     LAP(CLOCK_INTEGRATE);
     extrapolate_walls(b);
     LAP(CLOCK_EXTRAPOLATE);
@@ -250,22 +315,25 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
     return true;
 }
 
-/// Bytes of one set that a checkpoint needs; with `to` they are written, with `from` read.
+/// Bytes of one set that a checkpoint has room for; with `to` what is in use is written, with
+/// `from` read.
 static size_t set_transfer(ParticleSet *set, char *to, const char *from)
 {
-    size_t size = 0, slots = (size_t)set->slot_capacity;
-#define MOVE(pointer, bytes)                                                                       \
+    size_t size = 0, item = sizeof(int32_t);
+#define MOVE(pointer, room, used)                                                                  \
     do {                                                                                           \
-        if (to) memcpy(to + size, (pointer), (bytes));                                             \
-        if (from) memcpy((pointer), from + size, (bytes));                                         \
-        size += (bytes);                                                                           \
+        if (to) memcpy(to + size, (pointer), (used));                                              \
+        if (from) memcpy((pointer), from + size, (used));                                          \
+        size += (room);                                                                            \
     } while (0)
-    MOVE(&set->cluster_count, sizeof set->cluster_count);
+    MOVE(&set->cluster_count, sizeof(int), sizeof(int));
+    size_t room = (size_t)set->slot_capacity * item;
+    size_t used = (size_t)set->cluster_count * CLUSTER * item;
     for (int a = 0; a < 3; a++)
-        MOVE(set->position[a], slots * sizeof(int32_t));
+        MOVE(set->position[a], room, used);
     for (int f = 0; f < set->field_count; f++)
-        MOVE(set->field[f], slots * sizeof(float));
-    MOVE(set->id, slots * sizeof(int32_t));
+        MOVE(set->field[f], room, used);
+    MOVE(set->id, room, used);
 #undef MOVE
     return size;
 }
@@ -290,7 +358,7 @@ static void cpu_restore(Backend *b, const void *from)
     size_t fluid = set_transfer(&b->fluid, NULL, from);
     size_t moving = set_transfer(&b->moving, NULL, (const char *)from + fluid);
     memcpy(&b->first_step, (const char *)from + fluid + moving, sizeof(bool));
-    b->sorted = false;
+    b->sorted = b->boxes_fresh = false;
     cpu_update_pressure(b);
 }
 
@@ -314,8 +382,7 @@ static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density
     TRY(cpu_neighbours(b, error));
     int slots = b->fluid.cluster_count * CLUSTER;
     const SweepConstants *c = &b->sweep.constants;
-    boxes_and_zero(&b->fluid, 3, b->setup.threads);
-    boxes_and_zero(&b->moving, 0, b->setup.threads);
+    zero_rates(b, 3);
     extrapolate_walls(b);
     cpu_sweep_fluid(b, b->table->acceleration[(b->setup.pair_mask & PAIR_VISCOSITY) != 0]);
     for (int s = 0; s < slots; s++)
@@ -323,7 +390,7 @@ static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density
             acceleration[b->fluid.id[s]][a] =
                 c->acceleration_factor * b->fluid.rate[a][s] + b->sweep.gravity[a];
     cpu_update_dynamic(b);
-    boxes_and_zero(&b->fluid, 1, b->setup.threads);
+    zero_rates(b, 1);
     cpu_sweep_fluid(b, b->table->density[(b->setup.pair_mask & PAIR_DIFFUSION) != 0]);
     for (int s = 0; s < slots; s++)
         if (b->fluid.id[s] >= 0)

@@ -5,31 +5,66 @@
 #include "backend/backend.h"
 #include "backend/sweep.h"
 
+/// Velocities that occur in a row: of water, moving dummies and, as zero, fixed dummies [m/s].
+typedef struct VelocitySpan {
+    float min[3], max[3]; ///< min > max: nobody there
+} VelocitySpan;
+
+/// Bounds on the relative motion of neighbours, by row [row_count].
+typedef struct Rows {
+    VelocitySpan *span;
+    float *speed;   ///< at which particles of the row and of those around it part [m/s]
+    float *stretch; ///< how far they have parted since the visit bits were written [m]
+    float *margin;  ///< how far they may [m]
+    float *total;   ///< since the sort [m]
+    float spacing, least_margin; ///< [m]
+} Rows;
+
+bool rows_create(Rows *rows, const Grid *grid, Arena *arena, Error *error);
+/// Lists are new, bits have to be written.
+void rows_sorted(Rows *rows, const Grid *grid);
+/// Begin a row's span: zero where fixed dummies are, else empty.
+void rows_note_rest(Rows *rows, const ParticleSet *fixed, int row);
+/// Widen a row's span by the velocities of a set.
+void rows_note_velocity(Rows *rows, const ParticleSet *set, int row);
+void rows_measure(Rows *rows, const Grid *grid, int threads);
+/// Everybody moves for dt [s].
+void rows_move(Rows *rows, const Grid *grid, double dt);
+/// Whether the lists serve another step.
+bool rows_lists_hold(const Rows *rows, const Grid *grid, double dt, double skin);
+bool rows_due(const Rows *rows, int row); ///< bits of the row have to be written
+/// Bits are being written. @return the margin they get [m]
+float rows_pruned(Rows *rows, int row, double dt, double skin);
+
 struct Backend {
     BackendSetup setup;
     Grid grid;
-    double skin;
+    double skin;        ///< [m]
     float excess_floor; ///< least density excess [-]
     ParticleSet fluid, fixed, moving;
     ClusterList fluid_fluid, fluid_fixed, fluid_moving, fixed_fluid, moving_fluid;
+    SortScratch scratch;
+    Rows rows;
     Vec3 *moving_reference; ///< by id
     int16_t *moving_owner;  ///< by id
-    int32_t *histogram;
     const SweepTable *table;
     Sweep sweep;
     int32_t inside_min[3], inside_max[3]; ///< a spacing beyond the walls [unit]
     int32_t barrier_min[3], barrier_max[3], barrier_top, barrier_depth; ///< [unit]
     bool sorted;                                                        ///< lists hold
-    double travel_fluid, travel_moving;                                 ///< since the last sort [m]
-    double step_travel; ///< of the last step, both together [m]
-    bool first_step;    ///< dummies have no velocity yet
+    bool boxes_fresh; ///< of fluid and moving dummies
+    double last_step; ///< [s]
+    bool first_step;  ///< dummies have no velocity yet
     int64_t sorts;
     double clock[CLOCK_COUNT];
 };
 
 double cpu_clock(void);
-/// Sort fluid and moving dummies and rebuild all lists when the skin is used up.
+/// Sort fluid and moving dummies and rebuild all lists when the skin is used up; write the visit
+/// bits of rows whose margin is.
 bool cpu_neighbours(Backend *backend, Error *error);
+void cpu_prune(Backend *backend);
+void cpu_refresh_boxes(Backend *backend); ///< when particles have moved since
 /// Slab by slab, even ones first, then odd ones: each slab writes to itself and the next.
 void cpu_sweep_fluid(Backend *backend, void (*function)(const Sweep *, int, int));
 void cpu_place(Backend *backend, const Advance *advance);

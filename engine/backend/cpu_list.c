@@ -4,15 +4,24 @@
 
 #include "backend/particles.h"
 
-bool list_create(ClusterList *list, const ParticleSet *a, uint32_t per_cluster, Arena *arena,
-                 Error *error)
+bool list_create(ClusterList *list, const ParticleSet *a, Arena *arena, Error *error)
 {
     memset(list, 0, sizeof *list);
     size_t clusters = (size_t)a->slot_capacity / CLUSTER;
     TRY(list->begin = arena_take(arena, clusters, sizeof(uint32_t), "list.begin", error));
     TRY(list->count = arena_take(arena, clusters, sizeof(uint32_t), "list.count", error));
-    list->per_cluster = per_cluster;
     return true;
+}
+
+void list_destroy(ClusterList *list)
+{
+    free(list->entry);
+    free(list->near);
+}
+
+size_t list_bytes(const ClusterList *list)
+{
+    return list->entry_capacity * (sizeof *list->entry + sizeof *list->near);
 }
 
 /// A row of `b` seen from a row of `a`: its clusters, and how far the window has moved.
@@ -41,77 +50,74 @@ static inline float box_gap(const Boxes *a, int i, const Boxes *b, int k)
 {
     float sum = 0;
     for (int axis = 0; axis < 3; axis++) {
-        // halves keep the difference of far boxes inside 32 bits
-        int32_t below = b->min[axis][k] / 2 - a->max[axis][i] / 2;
-        int32_t above = a->min[axis][i] / 2 - b->max[axis][k] / 2;
+        int32_t below = b->min[axis][k] - a->max[axis][i];
+        int32_t above = a->min[axis][i] - b->max[axis][k];
         int32_t gap = below > above ? below : above;
-        float g = gap > 0 ? 2.0f * (float)gap : 0.0f;
+        float g = gap > 0 ? (float)gap : 0.0f;
         sum += g * g;
     }
     return sum;
 }
 
-/// Entries of one row of `a`; returns the next free entry, or 0 when the region is full.
-static size_t fill_row(ClusterList *list, const ParticleSet *a, const ParticleSet *b,
-                       const Grid *grid, bool half, int s, int c, size_t next, size_t end)
+/// Neighbours of the clusters of one row; counts them when the list has no place for them yet.
+static void fill_row(ClusterList *list, const ParticleSet *a, const ParticleSet *b,
+                     const Grid *grid, bool half, int row, bool count_only)
 {
     Window windows[(2 * ROW_REACH + 1) * (2 * ROW_REACH + 1)];
-    int count = open_windows(b, grid, s, c, half, windows);
-    int row = s * grid->across_rows + c, along = grid->along;
+    if (a->row_begin[row] == a->row_begin[row + 1]) return;
+    int windows_open =
+        open_windows(b, grid, row / grid->across_rows, row % grid->across_rows, half, windows);
+    int along = grid->along;
+    // clusters of a row are sorted by bin: their ends may overlap by one
     int32_t slack = grid->reach + grid->bin;
     for (int i = a->row_begin[row]; i < a->row_begin[row + 1]; i++) {
-        list->begin[i] = (uint32_t)next;
-        int32_t low = a->boxes.min[along][i] - slack;
-        int32_t high = a->boxes.max[along][i] + slack;
-        for (int w = 0; w < count; w++) {
+        uint32_t *entry = count_only ? NULL : list->entry + list->begin[i], count = 0;
+        int32_t low = a->boxes.min[along][i] - slack, high = a->boxes.max[along][i] + slack;
+        for (int w = 0; w < windows_open; w++) {
             int k = windows[w].cluster;
             while (k < windows[w].end && b->boxes.max[along][k] < low - grid->bin)
                 k++;
             windows[w].cluster = k;
-            for (; k < windows[w].end && b->boxes.min[along][k] <= high; k++) {
+            for (; k < windows[w].end && b->boxes.min[along][k] <= high && count < ENTRIES_MAX; k++) {
                 if (half && k <= i) continue;
                 if (box_gap(&a->boxes, i, &b->boxes, k) >= grid->reach_squared) continue;
-                if (next == end) return 0;
-                list->entry[next++] = (uint32_t)k;
+                if (entry) entry[count] = (uint32_t)k;
+                count++;
             }
         }
-        list->count[i] = (uint32_t)(next - list->begin[i]);
+        list->count[i] = count;
     }
-    return next;
 }
 
-static bool fill_list(ClusterList *list, const ParticleSet *a, const ParticleSet *b,
-                      const Grid *grid, bool half, int threads)
+static bool make_room(ClusterList *list, int clusters)
 {
-    bool fits = true;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(&& : fits)
-    for (int slab = 0; slab < grid->slab_count; slab++) {
-        int first = slab * SLAB_ROWS, last = first + SLAB_ROWS;
-        last = last > grid->slab_rows ? grid->slab_rows : last;
-        size_t next = (size_t)a->row_begin[first * grid->across_rows] * list->per_cluster + 1;
-        size_t end = (size_t)a->row_begin[last * grid->across_rows] * list->per_cluster + 1;
-        for (int s = first; s < last && next; s++)
-            for (int c = 0; c < grid->across_rows && next; c++)
-                next = fill_row(list, a, b, grid, half, s, c, next, end);
-        fits = fits && next;
+    size_t need = 0;
+    for (int i = 0; i < clusters; i++) {
+        list->begin[i] = (uint32_t)need;
+        need += (list->count[i] + 7) / 8 * 8;
     }
-    return fits;
+    list->entry_count = need;
+    if (need + 8 > list->entry_capacity) {
+        size_t capacity = need + need / 8 + 64;
+        if (capacity > UINT32_MAX) return false;
+        // the old entries are worthless: no need to copy them
+        list_destroy(list);
+        list->entry = malloc(capacity * sizeof *list->entry);
+        list->near = malloc(capacity * sizeof *list->near);
+        list->entry_capacity = list->entry && list->near ? capacity : 0;
+    }
+    return list->entry_capacity > 0;
 }
 
 bool list_build(ClusterList *list, const ParticleSet *a, const ParticleSet *b, const Grid *grid,
                 bool half, int threads)
 {
-    for (;;) {
-        size_t need = (size_t)a->cluster_count * list->per_cluster + 1;
-        if (need > list->entry_capacity) {
-            size_t capacity = need + need / 8;
-            if (capacity > UINT32_MAX) return false;
-            uint32_t *grown = realloc(list->entry, capacity * sizeof *grown);
-            if (!grown) return false;
-            list->entry = grown;
-            list->entry_capacity = capacity;
-        }
-        if (fill_list(list, a, b, grid, half, threads)) return true;
-        list->per_cluster += list->per_cluster / 2 + 8;
-    }
+#pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
+    for (int row = 0; row < grid->row_count; row++)
+        fill_row(list, a, b, grid, half, row, true);
+    if (!make_room(list, a->cluster_count)) return false;
+#pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
+    for (int row = 0; row < grid->row_count; row++)
+        fill_row(list, a, b, grid, half, row, false);
+    return true;
 }

@@ -72,6 +72,7 @@ static double highest_near(const Backend *b, double x, double y)
 /// whose outermost particles lie dp/2 below it.
 double cpu_elevation(Backend *b, double x, double y)
 {
+    cpu_refresh_boxes(b);
     double colour[COLUMN_SAMPLES], top = highest_near(b, x, y);
     double dp = b->setup.spacing, dz = 6 * dp / (COLUMN_SAMPLES - 1);
     // spray: look below until there is water under the sample
@@ -88,6 +89,7 @@ double cpu_elevation(Backend *b, double x, double y)
 
 double cpu_pressure(Backend *b, Vec3 point)
 {
+    cpu_refresh_boxes(b);
     const ParticleSet *f = &b->fluid;
     double h = b->setup.smoothing_length, reach = 2 * h / b->grid.unit;
     int32_t at[3] = {to_coordinate(&b->grid, 0, point.x), to_coordinate(&b->grid, 1, point.y),

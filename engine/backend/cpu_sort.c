@@ -30,15 +30,21 @@ Grid grid_create(const double min[3], const double max[3], int dimensions, doubl
     grid.across_rows = size[grid.across] / grid.row + 1;
     grid.bins = size[grid.along] / grid.bin + 1;
     grid.slab_count = (grid.slab_rows + SLAB_ROWS - 1) / SLAB_ROWS;
+    grid.row_count = grid.slab_rows * grid.across_rows;
     double reach = (support + skin) / grid.unit;
     grid.reach = (int32_t)reach + 1;
     grid.reach_squared = (float)(reach * reach);
     return grid;
 }
 
-size_t grid_key_count(const Grid *grid)
+/// Slots a row may spend on ending clusters early at gaps.
+static int row_luxury(int count) { return CLUSTER + count / 8; }
+
+int set_slots(const Grid *grid, int count)
 {
-    return (size_t)grid->slab_rows * grid->across_rows * grid->bins;
+    // each occupied row: its particles, its luxury, the padding of its last cluster
+    int rows = grid->row_count < count ? grid->row_count : count;
+    return (count + count / 8) / CLUSTER * CLUSTER + CLUSTER * (2 * rows + 2);
 }
 
 bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
@@ -47,38 +53,45 @@ bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, 
     memset(set, 0, sizeof *set);
     set->count = count;
     set->field_count = field_count;
-    int rows = grid->slab_rows * grid->across_rows;
-    set->slot_capacity =
-        (count + count / 2) / CLUSTER * CLUSTER + CLUSTER * (rows < count ? rows : count);
+    set->slot_capacity = set_slots(grid, count);
     size_t n = (size_t)set->slot_capacity, clusters = n / CLUSTER;
 #define TAKE(pointer, items, type, what)                                                           \
     TRY((pointer) = arena_take(arena, (items), sizeof(type), "particles." what, error))
     for (int a = 0; a < 3; a++) {
         TAKE(set->position[a], n, int32_t, "position");
-        TAKE(set->spare_position[a], n, int32_t, "position");
-        TAKE(set->rate[a], n, float, "rate");
         TAKE(set->boxes.min[a], clusters, int32_t, "boxes");
         TAKE(set->boxes.max[a], clusters, int32_t, "boxes");
     }
-    for (int f = 0; f < (field_count < 3 ? 3 : field_count); f++) {
+    for (int f = 0; f < (field_count < 3 ? 3 : field_count); f++)
         TAKE(set->field[f], n, float, "field");
-        if (f < field_count) TAKE(set->spare_field[f], n, float, "field");
-    }
     TAKE(set->id, n, int32_t, "id");
-    TAKE(set->spare_id, n, int32_t, "id");
     TAKE(set->pressure, n, float, "pressure");
     TAKE(set->dynamic, n, float, "dynamic");
-    TAKE(set->key, n, int32_t, "key");
-    TAKE(set->source, n, int32_t, "source");
-    TAKE(set->row_begin, (size_t)rows + 1, int, "rows");
+    TAKE(set->row_begin, (size_t)grid->row_count + 1, int, "rows");
 #undef TAKE
-    for (size_t i = 0; i < n; i++) {
+    // before the first sort the particles lie in slots 0 … count - 1
+    set->cluster_count = (count + CLUSTER - 1) / CLUSTER;
+    for (int i = count; i < set->cluster_count * CLUSTER; i++) {
         set->id[i] = -1;
         for (int a = 0; a < 3; a++)
             set->position[a][i] = PADDING;
     }
-    // before the first sort the particles lie in slots 0 … count - 1
-    set->cluster_count = (count + CLUSTER - 1) / CLUSTER;
+    return true;
+}
+
+bool scratch_create(SortScratch *scratch, const Grid *grid, int slots, int threads, Arena *arena,
+                    Error *error)
+{
+    int most = grid->row_count > grid->bins ? grid->row_count : grid->bins;
+    scratch->threads = threads;
+    scratch->histogram_size = (size_t)most + 1;
+    for (int a = 0; a < 3; a++)
+        TRY(scratch->slot[a] =
+                arena_take(arena, (size_t)slots, sizeof(int32_t), "particles.rate", error));
+    TRY(scratch->histogram = arena_take(arena, (size_t)threads * scratch->histogram_size,
+                                        sizeof(int32_t), "sort.histogram", error));
+    TRY(scratch->row_first =
+            arena_take(arena, (size_t)grid->row_count + 1, sizeof(int), "sort.rows", error));
     return true;
 }
 
@@ -87,98 +100,162 @@ static int32_t clamp_index(int32_t index, int32_t count)
     return index < 0 ? 0 : (index >= count ? count - 1 : index);
 }
 
-static void compute_keys(ParticleSet *set, const Grid *grid, int slots, int threads)
+/// A set being sorted. `bin` and `row` by old slot; `order` old slots by row, then by row and bin.
+typedef struct Sorting {
+    ParticleSet *set;
+    const Grid *grid;
+    SortScratch *scratch;
+    int32_t *bin, *row, *order;
+    int slots; ///< in use before
+} Sorting;
+
+/// Slots of part t, in whole clusters: parts stand in the order of their slots, so that the sort is
+/// stable and its result the same for any number of threads.
+static int part_begin(const Sorting *s, int t)
 {
-    const int32_t *s = set->position[grid->slab], *c = set->position[grid->across];
-    const int32_t *l = set->position[grid->along];
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int i = 0; i < slots; i++) {
-        int32_t row = clamp_index(s[i] / grid->row, grid->slab_rows) * grid->across_rows +
-                      clamp_index(c[i] / grid->row, grid->across_rows);
-        int32_t key = row * grid->bins + clamp_index(l[i] / grid->bin, grid->bins);
-        set->key[i] = set->id[i] < 0 ? -1 : key;
+    return (int)((int64_t)(s->slots / CLUSTER) * t / s->scratch->threads) * CLUSTER;
+}
+
+static void count_rows(const Sorting *s, int t)
+{
+    const Grid *grid = s->grid;
+    const int32_t *slab = s->set->position[grid->slab], *across = s->set->position[grid->across];
+    const int32_t *along = s->set->position[grid->along], *id = s->set->id;
+    int32_t *histogram = s->scratch->histogram + (size_t)t * s->scratch->histogram_size;
+    memset(histogram, 0, (size_t)grid->row_count * sizeof *histogram);
+    for (int i = part_begin(s, t); i < part_begin(s, t + 1); i++) {
+        if (id[i] < 0) continue;
+        int32_t row = clamp_index(slab[i] / grid->row, grid->slab_rows) * grid->across_rows +
+                      clamp_index(across[i] / grid->row, grid->across_rows);
+        s->row[i] = row;
+        s->bin[i] = clamp_index(along[i] / grid->bin, grid->bins);
+        histogram[row]++;
     }
 }
 
-/// Old slots in the order of their keys, into set->source[0 … count - 1] (stable).
-static void counting_sort(ParticleSet *set, int slots, size_t keys, int32_t *histogram)
+static void place_rows(const Sorting *s)
 {
-    memset(histogram, 0, (keys + 1) * sizeof *histogram);
-    for (int i = 0; i < slots; i++)
-        if (set->key[i] >= 0) histogram[set->key[i] + 1]++;
-    for (size_t k = 0; k < keys; k++)
+    int next = 0;
+    for (int row = 0; row < s->grid->row_count; row++) {
+        s->scratch->row_first[row] = next;
+        for (int t = 0; t < s->scratch->threads; t++) {
+            int32_t *count = s->scratch->histogram + (size_t)t * s->scratch->histogram_size + row;
+            int first = next;
+            next += *count;
+            *count = first;
+        }
+    }
+    s->scratch->row_first[s->grid->row_count] = next;
+}
+
+static void scatter_to_rows(const Sorting *s, int t)
+{
+    int32_t *next = s->scratch->histogram + (size_t)t * s->scratch->histogram_size;
+    for (int i = part_begin(s, t); i < part_begin(s, t + 1); i++)
+        if (s->set->id[i] >= 0) s->order[next[s->row[i]]++] = i;
+}
+
+/// Sort one row by bin: from `order` into `to`, both by place.
+static void sort_row(const Sorting *s, int row, int32_t *histogram, int32_t *to)
+{
+    int begin = s->scratch->row_first[row], end = s->scratch->row_first[row + 1];
+    if (begin == end) return;
+    memset(histogram, 0, ((size_t)s->grid->bins + 1) * sizeof *histogram);
+    for (int n = begin; n < end; n++)
+        histogram[s->bin[s->order[n]] + 1]++;
+    for (int k = 0; k < s->grid->bins; k++)
         histogram[k + 1] += histogram[k];
-    for (int i = 0; i < slots; i++)
-        if (set->key[i] >= 0) set->source[histogram[set->key[i]]++] = i;
+    for (int n = begin; n < end; n++)
+        to[begin + histogram[s->bin[s->order[n]]]++] = s->order[n];
 }
 
-/// Hand out slots along each row; a cluster ends when full, at the row's end, or at a gap of more
+/// Hand out the slots of one row; a cluster ends when full, at the row's end, or at a gap of more
 /// than two spacings (else its box would span empty room), as long as slots are left for that
-/// luxury. Leaves the old slot of each new slot in spare_id (-1: padding).
-static int cut_clusters(ParticleSet *set, const Grid *grid)
+/// luxury. @param from  old slot of each new slot from row's first (-1: padding), or NULL to count
+/// @return slots
+static int cut_row(const Sorting *s, const int32_t *sorted, int row, int32_t *from)
 {
-    int rows = grid->slab_rows * grid->across_rows, slot = 0, row = 0;
-    int luxury =
-        set->slot_capacity - set->count - CLUSTER * (rows < set->count ? rows : set->count);
-    int32_t *from = set->spare_id, last_key = -1;
-    for (int n = 0; n < set->count; n++) {
-        int32_t key = set->key[set->source[n]];
-        int own_row = key / grid->bins;
-        bool new_row = n == 0 || own_row != last_key / grid->bins;
+    int begin = s->scratch->row_first[row], end = s->scratch->row_first[row + 1];
+    int slot = 0, luxury = row_luxury(end - begin);
+    for (int n = begin; n < end; n++) {
         int used = slot % CLUSTER;
-        bool gap = !new_row && key - last_key > 4 && used && luxury >= CLUSTER - used;
-        if (gap) luxury -= CLUSTER - used;
-        if (new_row || gap)
-            while (slot % CLUSTER)
-                from[slot++] = -1;
-        for (; new_row && row <= own_row; row++)
-            set->row_begin[row] = slot / CLUSTER;
-        from[slot++] = set->source[n];
-        last_key = key;
+        bool gap = n > begin && used && s->bin[sorted[n]] - s->bin[sorted[n - 1]] > 4;
+        if (gap && luxury >= CLUSTER - used) {
+            luxury -= CLUSTER - used;
+            for (; slot % CLUSTER; slot++)
+                if (from) from[slot] = -1;
+        }
+        if (from) from[slot] = sorted[n];
+        slot++;
     }
-    while (slot % CLUSTER)
-        from[slot++] = -1;
-    for (; row <= rows; row++)
-        set->row_begin[row] = slot / CLUSTER;
-    return slot / CLUSTER;
+    for (; slot % CLUSTER; slot++)
+        if (from) from[slot] = -1;
+    return slot;
 }
 
-static void move_to_slots(ParticleSet *set, int clusters, int threads)
+/// Bring one array (of int32_t or float) into the new order.
+static void gather(void *array, int32_t *spare, const int32_t *from, int slots, int32_t padding)
 {
-    const int32_t *from = set->spare_id;
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int slot = 0; slot < clusters * CLUSTER; slot++) {
-        int old = from[slot];
+    char *item = array;
+#pragma omp for schedule(static)
+    for (int i = 0; i < slots; i++) {
+        int32_t value = padding;
+        if (from[i] >= 0) memcpy(&value, item + sizeof value * (size_t)from[i], sizeof value);
+        spare[i] = value;
+    }
+#pragma omp for schedule(static)
+    for (int i = 0; i < slots; i++)
+        memcpy(item + sizeof *spare * (size_t)i, &spare[i], sizeof *spare);
+}
+
+void set_sort(ParticleSet *set, const Grid *grid, SortScratch *scratch)
+{
+    int rows = grid->row_count, slots = 0;
+    Sorting s = {set,
+                 grid,
+                 scratch,
+                 scratch->slot[0],
+                 scratch->slot[1],
+                 scratch->slot[2],
+                 set->cluster_count * CLUSTER};
+    // an array is dead when the next stage needs room: rows become the sorted order, then
+    // `order` becomes the old slot of each new slot, and the bins the spare of the gathering
+    int32_t *sorted = s.row, *from = s.order, *spare = s.bin;
+#pragma omp parallel num_threads(scratch->threads)
+    {
+#pragma omp for schedule(static, 1)
+        for (int t = 0; t < scratch->threads; t++)
+            count_rows(&s, t);
+#pragma omp single
+        place_rows(&s);
+#pragma omp for schedule(static, 1)
+        for (int t = 0; t < scratch->threads; t++)
+            scatter_to_rows(&s, t);
+#pragma omp for schedule(static, 1)
+        for (int t = 0; t < scratch->threads; t++)
+            for (int row = t; row < rows; row += scratch->threads)
+                sort_row(&s, row, scratch->histogram + (size_t)t * scratch->histogram_size, sorted);
+#pragma omp for schedule(dynamic, 16)
+        for (int row = 0; row < rows; row++)
+            set->row_begin[row] = cut_row(&s, sorted, row, NULL) / CLUSTER;
+#pragma omp single
+        {
+            for (int row = 0; row < rows; row++) {
+                int clusters = set->row_begin[row];
+                set->row_begin[row] = slots / CLUSTER;
+                slots += clusters * CLUSTER;
+            }
+            set->row_begin[rows] = set->cluster_count = slots / CLUSTER;
+        }
+#pragma omp for schedule(dynamic, 16)
+        for (int row = 0; row < rows; row++)
+            cut_row(&s, sorted, row, from + set->row_begin[row] * CLUSTER);
         for (int a = 0; a < 3; a++)
-            set->spare_position[a][slot] = old < 0 ? PADDING : set->position[a][old];
+            gather(set->position[a], spare, from, slots, PADDING);
         for (int f = 0; f < set->field_count; f++)
-            set->spare_field[f][slot] = old < 0 ? 0.0f : set->field[f][old];
-        set->source[slot] = old < 0 ? -1 : set->id[old];
-        set->pressure[slot] = 0;
-        set->dynamic[slot] = 0;
+            gather(set->field[f], spare, from, slots, 0);
+        gather(set->id, spare, from, slots, -1);
     }
-    for (int a = 0; a < 3; a++) {
-        int32_t *swap = set->position[a];
-        set->position[a] = set->spare_position[a];
-        set->spare_position[a] = swap;
-    }
-    for (int f = 0; f < set->field_count; f++) {
-        float *swap = set->field[f];
-        set->field[f] = set->spare_field[f];
-        set->spare_field[f] = swap;
-    }
-    int32_t *swap = set->id;
-    set->id = set->source;
-    set->source = swap;
-}
-
-void set_sort(ParticleSet *set, const Grid *grid, int32_t *histogram, int threads)
-{
-    int slots = set->cluster_count * CLUSTER;
-    compute_keys(set, grid, slots, threads);
-    counting_sort(set, slots, grid_key_count(grid), histogram);
-    set->cluster_count = cut_clusters(set, grid);
-    move_to_slots(set, set->cluster_count, threads);
 }
 
 void set_boxes(ParticleSet *set, int begin, int end)

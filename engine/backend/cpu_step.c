@@ -125,8 +125,11 @@ static void block_drift(const Backend *b, ParticleSet *f, int begin, int end, fl
 /// The last barrier at fixed planes: a jet one particle thin carries no pressure that dummies could
 /// extrapolate, and would seep through. What is up to two spacings behind a plane goes back onto it
 /// and loses its speed into it; what flew over the walls stays out.
-static void block_barrier(const Backend *b, ParticleSet *f, int begin, int end)
+/// @return whether a particle was put farther than its step took it: lists may miss its neighbours
+static bool block_barrier(const Backend *b, ParticleSet *f, int begin, int end, float dt)
 {
+    bool jumped = false;
+    float scale = (float)(dt / b->grid.unit);
     for (int a = 0; a < 3; a++) {
         int32_t *p = f->position[a];
         const int32_t *z = f->position[2];
@@ -135,18 +138,20 @@ static void block_barrier(const Backend *b, ParticleSet *f, int begin, int end)
         for (int i = begin; i < end; i++) {
             if (f->id[i] < 0 || z[i] > b->barrier_top) continue;
             if (p[i] < low && p[i] > low - deep) {
+                jumped = jumped || (float)(low - p[i]) > 2 - scale * v[i];
                 p[i] = low;
                 v[i] = maxf(v[i], 0);
             } else if (p[i] > high && p[i] < high + deep) {
+                jumped = jumped || (float)(p[i] - high) > 2 + scale * v[i];
                 p[i] = high;
                 v[i] = minf(v[i], 0);
             }
         }
     }
+    return jumped;
 }
 
-/// Where moving dummies are to be at the end of the step, into spare_position (world metres →
-/// units).
+/// Where moving dummies are to be at the end of the step, into `target`.
 static void block_targets(Backend *b, const Advance *advance, int begin, int end)
 {
     ParticleSet *m = &b->moving;
@@ -163,9 +168,9 @@ static void block_targets(Backend *b, const Advance *advance, int begin, int end
         if (!count || !move) continue;
         move(advance->waves, then, count, mean, place);
         for (int k = 0; k < count; k++) {
-            m->spare_position[0][slot[k]] = to_coordinate(&b->grid, 0, place[k].x);
-            m->spare_position[1][slot[k]] = to_coordinate(&b->grid, 1, place[k].y);
-            m->spare_position[2][slot[k]] = to_coordinate(&b->grid, 2, place[k].z);
+            m->target[0][slot[k]] = to_coordinate(&b->grid, 0, place[k].x);
+            m->target[1][slot[k]] = to_coordinate(&b->grid, 1, place[k].y);
+            m->target[2][slot[k]] = to_coordinate(&b->grid, 2, place[k].z);
         }
     }
     for (int i = begin; i < end; i++) {
@@ -173,48 +178,40 @@ static void block_targets(Backend *b, const Advance *advance, int begin, int end
         const BodyPose *pose = &advance->poses[b->moving_owner[m->id[i]]];
         Vec3 at =
             vec3_add(pose->origin, quat_rotate(pose->attitude, b->moving_reference[m->id[i]]));
-        m->spare_position[0][i] = to_coordinate(&b->grid, 0, at.x);
-        m->spare_position[1][i] = to_coordinate(&b->grid, 1, at.y);
-        m->spare_position[2][i] = to_coordinate(&b->grid, 2, at.z);
+        m->target[0][i] = to_coordinate(&b->grid, 0, at.x);
+        m->target[1][i] = to_coordinate(&b->grid, 1, at.y);
+        m->target[2][i] = to_coordinate(&b->grid, 2, at.z);
     }
 }
 
 /// Velocity from the path's chord, half of the way, and the acceleration for the next
 /// extrapolation.
-static float block_move_halfway(Backend *b, double dt, int begin, int end)
+static void block_move_halfway(Backend *b, double dt, int begin, int end)
 {
     ParticleSet *m = &b->moving;
-    float speed2[BLOCK] = {0}, scale = (float)(b->grid.unit / dt);
+    float scale = (float)(b->grid.unit / dt);
     for (int a = 0; a < 3; a++) {
         for (int i = begin; i < end; i++) {
             if (m->id[i] < 0) continue;
-            int32_t from = m->position[a][i], to = m->spare_position[a][i];
+            int32_t from = m->position[a][i], to = m->target[a][i];
             float v = (float)(to - from) * scale, old = m->field[VELOCITY_X + a][i];
             m->field[WALL_ACCELERATION_X + a][i] = b->first_step ? 0.0f : (v - old) / (float)dt;
             m->field[VELOCITY_X + a][i] = v;
             m->position[a][i] = from + (to - from) / 2;
-            speed2[i - begin] += v * v;
         }
     }
-    float largest = 0;
-    for (int i = 0; i < end - begin; i++)
-        largest = maxf(largest, speed2[i]);
-    return largest;
 }
 
-static float move_dummies_halfway(Backend *b, const Advance *advance)
+static void move_dummies_halfway(Backend *b, const Advance *advance)
 {
-    float largest = 0;
     int slots = b->moving.cluster_count * CLUSTER;
-#pragma omp parallel for schedule(static) num_threads(b->setup.threads) reduction(max : largest)
+#pragma omp parallel for schedule(static) num_threads(b->setup.threads)
     for (int begin = 0; begin < slots; begin += BLOCK) {
         int end = block_end(&b->moving, begin);
         block_targets(b, advance, begin, end);
-        largest = maxf(largest, block_move_halfway(b, advance->dt, begin, end));
-        set_boxes(&b->moving, begin / CLUSTER, end / CLUSTER);
+        block_move_halfway(b, advance->dt, begin, end);
     }
     b->first_step = false;
-    return sqrtf(largest);
 }
 
 static void finish_dummies(Backend *b)
@@ -223,7 +220,7 @@ static void finish_dummies(Backend *b)
     int slots = m->cluster_count * CLUSTER;
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < slots; i++)
-            if (m->id[i] >= 0) m->position[a][i] = m->spare_position[a][i];
+            if (m->id[i] >= 0) m->position[a][i] = m->target[a][i];
 }
 
 void cpu_place(Backend *b, const Advance *advance)
@@ -231,11 +228,11 @@ void cpu_place(Backend *b, const Advance *advance)
     for (int begin = 0; begin < b->moving.cluster_count * CLUSTER; begin += BLOCK)
         block_targets(b, advance, begin, block_end(&b->moving, begin));
     finish_dummies(b);
-    b->sorted = false;
+    b->sorted = b->boxes_fresh = false;
 }
 
-/// New density, second half drift, pressure; what health wants to know about the block.
-static void block_finish(Backend *b, int begin, int end, float dt, ParticleSums *sums)
+/// New density, second half drift, pressure. @return whether a barrier made a particle jump
+static bool block_finish(Backend *b, int begin, int end, float dt)
 {
     ParticleSet *f = &b->fluid;
     float factor = dt * b->sweep.constants.density_factor;
@@ -247,25 +244,42 @@ static void block_finish(Backend *b, int begin, int end, float dt, ParticleSums 
         excess[i] = next < floor ? floor : next;
     }
     block_drift(b, f, begin, end, 0.5f * dt);
-    block_barrier(b, f, begin, end);
+    bool jumped = block_barrier(b, f, begin, end, 0.5f * dt);
     for (int i = begin; i < end; i++) {
         float rho = rho0 * (1.0f + excess[i]);
         f->pressure[i] = tait_pressure(excess[i], tait) / (rho * rho);
     }
+    return jumped;
+}
+
+/// Sums of a few slots, as the compiler can vectorise them: comparisons, no branches.
+typedef struct BlockSums {
+    float speed2, low, high;
+    int32_t lost, sick;
+} BlockSums;
+
+static BlockSums block_sums(const Backend *b, int begin, int end)
+{
+    const ParticleSet *f = &b->fluid;
+    const float *u = f->field[VELOCITY_X], *v = f->field[VELOCITY_Y], *w = f->field[VELOCITY_Z];
+    const float *excess = f->field[EXCESS];
+    const int32_t *x = f->position[0], *y = f->position[1], *z = f->position[2], *id = f->id;
+    const int32_t *low = b->inside_min, *high = b->inside_max;
+    BlockSums s = {0, 1e30f, -1e30f, 0, 0};
     for (int i = begin; i < end; i++) {
-        if (f->id[i] < 0) continue;
-        float u = f->field[VELOCITY_X][i], v = f->field[VELOCITY_Y][i], w = f->field[VELOCITY_Z][i];
-        double speed2 = (double)u * u + (double)v * v + (double)w * w;
-        if (!(speed2 < 1e12) || !(fabsf(excess[i]) < 10)) sums->sick = f->id[i];
-        sums->largest_speed = maxd(sums->largest_speed, speed2);
-        sums->smallest_excess = mind(sums->smallest_excess, excess[i]);
-        sums->largest_excess = maxd(sums->largest_excess, excess[i]);
-        bool lost = false;
-        for (int a = 0; a < 3; a++)
-            lost = lost || f->position[a][i] < b->inside_min[a] ||
-                   f->position[a][i] > b->inside_max[a];
-        sums->lost_count += lost;
+        float speed2 = u[i] * u[i] + v[i] * v[i] + w[i] * w[i];
+        int32_t real = id[i] >= 0;
+        int32_t sane = (speed2 < 1e12f) & (excess[i] < 10) & (excess[i] > -10);
+        int32_t inside = (x[i] >= low[0]) & (x[i] <= high[0]) & (y[i] >= low[1]) &
+                         (y[i] <= high[1]) & (z[i] >= low[2]) & (z[i] <= high[2]);
+        s.lost += real & (1 - inside);
+        s.sick += real & (1 - sane);
+        s.speed2 = s.speed2 > speed2 ? s.speed2 : speed2;
+        float least = real ? excess[i] : 1e30f, most = real ? excess[i] : -1e30f;
+        s.low = s.low < least ? s.low : least;
+        s.high = s.high > most ? s.high : most;
     }
+    return s;
 }
 
 static ParticleSums no_sums(void)
@@ -277,6 +291,20 @@ static ParticleSums no_sums(void)
     sums.sick = -1;
     sums.lost_count = 0;
     return sums;
+}
+
+static void add_block(ParticleSums *total, const BlockSums *block, const ParticleSet *f, int begin,
+                      int end)
+{
+    total->largest_speed = maxd(total->largest_speed, block->speed2);
+    total->smallest_excess = mind(total->smallest_excess, block->low);
+    total->largest_excess = maxd(total->largest_excess, block->high);
+    total->lost_count += block->lost;
+    for (int i = begin; block->sick && i < end; i++) {
+        float u = f->field[VELOCITY_X][i], v = f->field[VELOCITY_Y][i], w = f->field[VELOCITY_Z][i];
+        bool sane = u * u + v * v + w * w < 1e12f && fabsf(f->field[EXCESS][i]) < 10;
+        if (f->id[i] >= 0 && !sane) total->sick = f->id[i] > total->sick ? f->id[i] : total->sick;
+    }
 }
 
 static void merge_sums(ParticleSums *total, const ParticleSums *part)
@@ -292,53 +320,66 @@ static void finish_fluid(Backend *b, float dt, ParticleSums *sums)
 {
     *sums = no_sums();
     int slots = b->fluid.cluster_count * CLUSTER;
-#pragma omp parallel num_threads(b->setup.threads)
+    bool jumped = false;
+#pragma omp parallel num_threads(b->setup.threads) reduction(|| : jumped)
     {
         ParticleSums own = no_sums();
 #pragma omp for schedule(static)
-        for (int begin = 0; begin < slots; begin += BLOCK)
-            block_finish(b, begin, block_end(&b->fluid, begin), dt, &own);
+        for (int begin = 0; begin < slots; begin += BLOCK) {
+            int end = block_end(&b->fluid, begin);
+            jumped = block_finish(b, begin, end, dt) || jumped;
+            BlockSums block = block_sums(b, begin, end);
+            add_block(&own, &block, &b->fluid, begin, end);
+        }
 #pragma omp critical
         merge_sums(sums, &own);
     }
     sums->largest_speed = sqrt(sums->largest_speed);
+    b->boxes_fresh = false;
+    if (jumped) b->sorted = false;
+}
+
+/// Kick, relaxation, first half drift and the spans of velocities, row by row.
+static void kick_and_drift(Backend *b, const Advance *advance)
+{
+    ParticleSet *f = &b->fluid;
+    float dt = (float)advance->dt;
+#pragma omp parallel for schedule(dynamic, 8) num_threads(b->setup.threads)
+    for (int row = 0; row < b->grid.row_count; row++) {
+        int row_end = f->row_begin[row + 1] * CLUSTER, end;
+        for (int begin = f->row_begin[row] * CLUSTER; begin < row_end; begin = end) {
+            end = begin + BLOCK < row_end ? begin + BLOCK : row_end;
+            block_kick(b, f, begin, end, dt);
+            if (advance->zone.width > 0) block_relax(b, f, begin, end, advance, dt);
+            block_drift(b, f, begin, end, 0.5f * dt);
+            block_dynamic(b, f, begin, end);
+            memset(f->rate[0] + begin, 0, (size_t)(end - begin) * sizeof(float));
+        }
+        rows_note_rest(&b->rows, &b->fixed, row);
+        rows_note_velocity(&b->rows, f, row);
+        rows_note_velocity(&b->rows, &b->moving, row);
+    }
+    b->boxes_fresh = false;
 }
 
 void cpu_advance(Backend *b, const Advance *advance, ParticleSums *sums)
 {
     double start = cpu_clock(), now;
 #define LAP(which) (now = cpu_clock(), b->clock[which] += now - start, start = now)
-    float dt = (float)advance->dt;
-    int slots = b->fluid.cluster_count * CLUSTER, threads = b->setup.threads;
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int begin = 0; begin < slots; begin += BLOCK)
-        block_kick(b, &b->fluid, begin, block_end(&b->fluid, begin), dt);
-    LAP(CLOCK_INTEGRATE);
-    if (advance->zone.width > 0) {
-#pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
-        for (int begin = 0; begin < slots; begin += BLOCK)
-            block_relax(b, &b->fluid, begin, block_end(&b->fluid, begin), advance, dt);
-        LAP(CLOCK_ZONE);
-    }
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int begin = 0; begin < slots; begin += BLOCK) {
-        int end = block_end(&b->fluid, begin);
-        block_drift(b, &b->fluid, begin, end, 0.5f * dt);
-        block_dynamic(b, &b->fluid, begin, end);
-        memset(b->fluid.rate[0] + begin, 0, (size_t)(end - begin) * sizeof(float));
-        set_boxes(&b->fluid, begin / CLUSTER, end / CLUSTER);
-    }
-    LAP(CLOCK_INTEGRATE);
-    float dummy_speed = b->moving.count ? move_dummies_halfway(b, advance) : 0;
+    b->last_step = advance->dt;
+    if (b->moving.count) move_dummies_halfway(b, advance);
     LAP(CLOCK_DUMMIES);
+    kick_and_drift(b, advance);
+    LAP(CLOCK_INTEGRATE);
+    rows_measure(&b->rows, &b->grid, b->setup.threads);
+    rows_move(&b->rows, &b->grid, 0.5 * advance->dt);
+    cpu_prune(b);
+    LAP(CLOCK_SORT);
     cpu_sweep_fluid(b, b->table->density[(b->setup.pair_mask & PAIR_DIFFUSION) != 0]);
     LAP(CLOCK_DENSITY);
-    finish_fluid(b, dt, sums);
+    finish_fluid(b, (float)advance->dt, sums);
     if (b->moving.count) finish_dummies(b);
-    double travel = sums->largest_speed * advance->dt, dummies = dummy_speed * advance->dt;
-    b->travel_fluid += travel;
-    b->travel_moving += dummies;
-    b->step_travel = travel + maxd(travel, dummies);
+    rows_move(&b->rows, &b->grid, 0.5 * advance->dt);
     LAP(CLOCK_INTEGRATE);
 #undef LAP
 }

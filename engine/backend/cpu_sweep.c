@@ -1,6 +1,7 @@
 /// Neighbour sweeps over clusters of eight. One particle (scalars) meets eight neighbours (lanes);
 /// no mask is needed, because s = max(0, 1 - q/2) is zero beyond the support and in padding. Which
-/// clusters a particle visits is decided by its distance to their boxes.
+/// clusters a particle visits, `prune` has written as bits into the list: by its distance to their
+/// boxes, with a margin, so that many sweeps can use them.
 ///
 /// Compiled once per instruction level with SWEEP_TABLE set to the exported function's name and
 /// SWEEP_LEVEL to the level's.
@@ -10,23 +11,19 @@
 
 #include "physics/fluid.h"
 
-enum { VISITS_MAX = 2048 };
-
 /// Boxes of one cluster's neighbours, side by side for the vectorised test.
 typedef struct Neighbourhood {
     int count;
-    int32_t slot[VISITS_MAX]; ///< first of each cluster
-    int32_t min[3][VISITS_MAX], max[3][VISITS_MAX];
+    int32_t min[3][ENTRIES_MAX], max[3][ENTRIES_MAX];
 } Neighbourhood;
 
 static void gather_boxes(Neighbourhood *n, const ClusterList *list, int i, const Boxes *boxes)
 {
     const uint32_t *entry = list->entry + list->begin[i];
     int count = (int)list->count[i];
-    n->count = count < VISITS_MAX ? count : VISITS_MAX;
+    n->count = count;
     for (int k = 0; k < n->count; k++) {
         uint32_t c = entry[k];
-        n->slot[k] = (int32_t)c * CLUSTER;
         for (int a = 0; a < 3; a++) {
             n->min[a][k] = boxes->min[a][c];
             n->max[a][k] = boxes->max[a][c];
@@ -34,11 +31,11 @@ static void gather_boxes(Neighbourhood *n, const ClusterList *list, int i, const
     }
 }
 
-/// First slots of the clusters whose box lies within the support of the point.
-static int select_visits(const Neighbourhood *n, int32_t x, int32_t y, int32_t z,
-                         float support_squared, int32_t *visits)
+/// Visit bits of one particle: clusters whose box lies within the reach of the point.
+static void write_near(const Neighbourhood *n, int32_t x, int32_t y, int32_t z, float reach_squared,
+                       uint8_t *bits)
 {
-    int32_t near[VISITS_MAX];
+    int32_t near[ENTRIES_MAX];
 #pragma omp simd
     for (int k = 0; k < n->count; k++) {
         int32_t bx = n->min[0][k] - x, ax = x - n->max[0][k];
@@ -49,12 +46,47 @@ static int select_visits(const Neighbourhood *n, int32_t x, int32_t y, int32_t z
         bz = bz > az ? bz : az;
         float gx = (float)(bx > 0 ? bx : 0), gy = (float)(by > 0 ? by : 0);
         float gz = (float)(bz > 0 ? bz : 0);
-        near[k] = gx * gx + gy * gy + gz * gz < support_squared;
+        near[k] = gx * gx + gy * gy + gz * gz < reach_squared ? 1 << (k & 7) : 0;
     }
-    int count = 0;
-    for (int k = 0; k < n->count; k++) {
-        visits[count] = n->slot[k];
-        count += near[k];
+    int bytes = (n->count + 7) / 8;
+    for (int k = n->count; k < 8 * bytes; k++)
+        near[k] = 0;
+    for (int byte = 0; byte < bytes; byte++) {
+        int32_t sum = 0;
+        for (int k = 0; k < 8; k++)
+            sum += near[8 * byte + k];
+        bits[byte] = (uint8_t)sum;
+    }
+}
+
+static void prune(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin, int end,
+                  float reach_squared)
+{
+    Neighbourhood n;
+    for (int i = begin; i < end; i++) {
+        if (!list->count[i]) continue;
+        gather_boxes(&n, list, i, &b->boxes);
+        int bytes = (n.count + 7) / 8;
+        for (int l = 0; l < CLUSTER; l++) {
+            int slot = i * CLUSTER + l;
+            write_near(&n, a->position[0][slot], a->position[1][slot], a->position[2][slot],
+                       reach_squared, list->near + list->begin[i] + l * bytes);
+        }
+    }
+}
+
+/// First slots of the clusters that particle l of cluster i visits. @return how many
+static int read_visits(const ClusterList *list, int i, int l, int32_t *visits)
+{
+    int entries = (int)list->count[i], bytes = (entries + 7) / 8, count = 0;
+    const uint32_t *entry = list->entry + list->begin[i];
+    const uint8_t *bits = list->near + list->begin[i] + l * bytes;
+    for (int byte = 0; byte < bytes; byte += 8) {
+        uint64_t word;
+        memcpy(&word, bits + byte, sizeof word); // the list ends in spare bytes
+        if (bytes - byte < 8) word &= (UINT64_C(1) << 8 * (bytes - byte)) - 1;
+        for (; word; word &= word - 1)
+            visits[count++] = (int32_t)entry[8 * byte + __builtin_ctzll(word)] * CLUSTER;
     }
     return count;
 }
@@ -183,17 +215,16 @@ static void squeeze_of_walls(const Self *self, const ParticleSet *walls, const i
         total[l] += sum[l];
 }
 
-FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous, Neighbourhood *n)
+FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous)
 {
     ParticleSet *fluid = sweep->fluid;
-    int32_t visits[VISITS_MAX];
+    int32_t visits[ENTRIES_MAX];
     const SweepConstants c = sweep->constants;
     Lanes sums[CLUSTER] = {0};
-    gather_boxes(n, sweep->fluid_fluid, i, &fluid->boxes);
     for (int l = 0; l < CLUSTER; l++) {
         if (fluid->id[i * CLUSTER + l] < 0) continue;
         const Self self = self_of(fluid, i * CLUSTER + l);
-        int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+        int count = read_visits(sweep->fluid_fluid, i, l, visits);
         Lanes sum = {0};
         for (int k = 0; k < count; k++)
             visit_momentum(&self, fluid, visits[k], c, viscous, true, &sum);
@@ -202,11 +233,10 @@ FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous, Neighbo
     }
     for (int set = 0; set < 2; set++) {
         if (!sweep->walls[set]->count || !sweep->fluid_wall[set]->count[i]) continue;
-        gather_boxes(n, sweep->fluid_wall[set], i, &sweep->walls[set]->boxes);
         for (int l = 0; l < CLUSTER; l++) {
             if (fluid->id[i * CLUSTER + l] < 0) continue;
             const Self self = self_of(fluid, i * CLUSTER + l);
-            int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+            int count = read_visits(sweep->fluid_wall[set], i, l, visits);
             push_of_walls(&self, sweep->walls[set], visits, count, c, &sums[l]);
         }
     }
@@ -217,17 +247,16 @@ FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous, Neighbo
     }
 }
 
-FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive, Neighbourhood *n)
+FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive)
 {
     ParticleSet *fluid = sweep->fluid;
-    int32_t visits[VISITS_MAX];
+    int32_t visits[ENTRIES_MAX];
     const SweepConstants c = sweep->constants;
     float sums[CLUSTER][CLUSTER] = {{0}};
-    gather_boxes(n, sweep->fluid_fluid, i, &fluid->boxes);
     for (int l = 0; l < CLUSTER; l++) {
         if (fluid->id[i * CLUSTER + l] < 0) continue;
         const Self self = self_of(fluid, i * CLUSTER + l);
-        int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+        int count = read_visits(sweep->fluid_fluid, i, l, visits);
         float sum[CLUSTER] = {0};
         for (int k = 0; k < count; k++)
             visit_density(&self, fluid, visits[k], c, diffusive, true, sum);
@@ -236,11 +265,10 @@ FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive, Neighbourh
     }
     for (int set = 0; set < 2; set++) {
         if (!sweep->walls[set]->count || !sweep->fluid_wall[set]->count[i]) continue;
-        gather_boxes(n, sweep->fluid_wall[set], i, &sweep->walls[set]->boxes);
         for (int l = 0; l < CLUSTER; l++) {
             if (fluid->id[i * CLUSTER + l] < 0) continue;
             const Self self = self_of(fluid, i * CLUSTER + l);
-            int count = select_visits(n, self.x, self.y, self.z, c.support_squared, visits);
+            int count = read_visits(sweep->fluid_wall[set], i, l, visits);
             squeeze_of_walls(&self, sweep->walls[set], visits, count, c, sums[l]);
         }
     }
@@ -250,27 +278,23 @@ FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive, Neighbourh
 
 static void acceleration_plain(const Sweep *sweep, int begin, int end)
 {
-    Neighbourhood n;
     for (int i = begin; i < end; i++)
-        acceleration_of_cluster(sweep, i, false, &n);
+        acceleration_of_cluster(sweep, i, false);
 }
 static void acceleration_viscous(const Sweep *sweep, int begin, int end)
 {
-    Neighbourhood n;
     for (int i = begin; i < end; i++)
-        acceleration_of_cluster(sweep, i, true, &n);
+        acceleration_of_cluster(sweep, i, true);
 }
 static void density_plain(const Sweep *sweep, int begin, int end)
 {
-    Neighbourhood n;
     for (int i = begin; i < end; i++)
-        density_of_cluster(sweep, i, false, &n);
+        density_of_cluster(sweep, i, false);
 }
 static void density_diffusive(const Sweep *sweep, int begin, int end)
 {
-    Neighbourhood n;
     for (int i = begin; i < end; i++)
-        density_of_cluster(sweep, i, true, &n);
+        density_of_cluster(sweep, i, true);
 }
 
 /// Sums of the dummy extrapolation.
@@ -317,21 +341,18 @@ static void extrapolate(const Sweep *sweep, int set, int begin, int end)
     ParticleSet *wall = sweep->walls[set];
     const ParticleSet *fluid = sweep->fluid;
     const ClusterList *list = sweep->wall_fluid[set];
-    Neighbourhood n;
-    int32_t visits[VISITS_MAX];
+    int32_t visits[ENTRIES_MAX];
     for (int i = begin; i < end; i++) {
         if (!list->count[i]) {
             for (int l = 0; l < CLUSTER; l++)
                 wall->pressure[i * CLUSTER + l] = 0;
             continue;
         }
-        gather_boxes(&n, list, i, &fluid->boxes);
         for (int l = 0; l < CLUSTER; l++) {
             int slot = i * CLUSTER + l;
             if (wall->id[slot] < 0) continue;
             const Self self = self_of(wall, slot);
-            int count =
-                select_visits(&n, self.x, self.y, self.z, sweep->constants.support_squared, visits);
+            int count = read_visits(list, i, l, visits);
             Shepard sum = {{0}, {0}, {0}, {0}, {0}};
             for (int k = 0; k < count; k++)
                 visit_extrapolation(&self, fluid, visits[k], sweep, &sum);
@@ -350,18 +371,14 @@ static void loads(const Sweep *sweep, int begin, int end)
     ParticleSet *wall = sweep->walls[1];
     const ClusterList *list = sweep->wall_fluid[1];
     const SweepConstants c = sweep->constants;
-    Neighbourhood n;
-    int32_t visits[VISITS_MAX];
+    int32_t visits[ENTRIES_MAX];
     for (int i = begin; i < end; i++) {
-        bool gathered = false;
         for (int l = 0; l < CLUSTER; l++) {
             int slot = i * CLUSTER + l, id = wall->id[slot];
             Lanes sum = {0};
             if (id >= 0 && sweep->moving_owner[id] >= 0 && list->count[i]) {
-                if (!gathered) gather_boxes(&n, list, i, &sweep->fluid->boxes);
-                gathered = true;
                 const Self self = self_of(wall, slot);
-                int count = select_visits(&n, self.x, self.y, self.z, c.support_squared, visits);
+                int count = read_visits(list, i, l, visits);
                 for (int k = 0; k < count; k++)
                     visit_momentum(&self, sweep->fluid, visits[k], c, false, false, &sum);
             }
@@ -376,6 +393,7 @@ const SweepTable *SWEEP_TABLE(void)
 {
     static const SweepTable table = {
         SWEEP_LEVEL,
+        prune,
         {acceleration_plain, acceleration_viscous},
         {density_plain, density_diffusive},
         extrapolate,

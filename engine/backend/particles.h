@@ -14,6 +14,7 @@
 #include "physics/pair.h"
 
 enum { CLUSTER = 8, FIELDS_MAX = 6, ROW_REACH = 2, SLAB_ROWS = 2 };
+enum { ENTRIES_MAX = 2048 }; ///< neighbours a cluster may have; only collapsed water has more
 #define PADDING (-(1 << 30)) ///< coordinate of an empty slot [unit]; real ones are in [0, 2^30)
 #define COORDINATE_END (1 << 30)
 
@@ -28,7 +29,7 @@ typedef struct Grid {
     int32_t row;             ///< side of a row [unit]
     int32_t bin;             ///< sorting bin along the row [unit]
     int slab_rows, across_rows, bins;
-    int slab_count;
+    int slab_count, row_count;
     float reach_squared; ///< (support + skin)^2 [unit^2]
     int32_t reach;       ///< support + skin [unit]
 } Grid;
@@ -42,7 +43,7 @@ typedef struct Boxes {
 enum { VELOCITY_X, VELOCITY_Y, VELOCITY_Z, EXCESS, FLUID_FIELDS };
 enum { WALL_ACCELERATION_X = 3, WALL_ACCELERATION_Y, WALL_ACCELERATION_Z, MOVING_FIELDS };
 
-/// One set: fluid, fixed dummies, or moving dummies.
+/// One set: fluid, fixed dummies, or moving dummies. Slots in use: cluster_count * CLUSTER.
 typedef struct ParticleSet {
     int count;                ///< particles
     int slot_capacity;        ///< multiple of CLUSTER
@@ -53,34 +54,47 @@ typedef struct ParticleSet {
     int32_t *id;              ///< index at creation, -1 in padding
     float *pressure;          ///< P = p/rho^2 [Pa m^6/kg^2]; 0 in padding
     float *dynamic;           ///< fluid: density excess less its hydrostatic part [-]
-    float *rate[3];           ///< sums of the sweeps
+    float *rate[3];           ///< sums of the sweeps; fixed: none
+    int32_t *target[3];       ///< moving: places at the end of the step [unit]
     Boxes boxes;
-    int *row_begin;             ///< [rows + 1] first cluster of each row
-    int32_t *spare_position[3]; ///< the sort's other half; moving: target places during a step
-    float *spare_field[FIELDS_MAX];
-    int32_t *spare_id;
-    int32_t *key, *source; ///< [slot_capacity]
+    int *row_begin; ///< [rows + 1] first cluster of each row
 } ParticleSet;
 
-/// For every cluster of one set the clusters of another within reach.
+/// Memory that sorting borrows; slots of the largest set. Between sorts the fluid's rates live in
+/// it.
+typedef struct SortScratch {
+    int32_t *slot[3];   ///< [largest slot_capacity]
+    int32_t *histogram; ///< [threads][rows or bins, whichever is more]
+    int *row_first;     ///< [rows + 1]
+    size_t histogram_size;
+    int threads;
+} SortScratch;
+
+/// For every cluster of one set the clusters of another within reach, and for each of its
+/// particles which of them to visit: bit k of the bytes at `near + begin + l * ceil(count/8)` says
+/// that particle l visits entry k. The entries hold until particles have moved by the skin, the
+/// bits (a byte an entry, all eight particles together) until they have moved by a smaller margin.
 typedef struct ClusterList {
-    uint32_t *begin;       ///< [cluster capacity] first entry
+    uint32_t *begin;       ///< [cluster capacity] first entry, a multiple of 8
     uint32_t *count;       ///< [cluster capacity]
     uint32_t *entry;       ///< malloc'ed: grows, rarely, when a sort finds more neighbours
-    uint32_t per_cluster;  ///< entries set aside per cluster
-    size_t entry_capacity; ///< [entries]
+    uint8_t *near;         ///< [entry_capacity] visit bits
+    size_t entry_count, entry_capacity;
 } ClusterList;
 
 /// Cut the box [min, max] (metres) into rows for the given support (2h) and skin [m].
 Grid grid_create(const double min[3], const double max[3], int dimensions, double support,
                  double skin, double spacing);
 
+/// Arrays of a set, all but its rates and targets.
 bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
                 Error *error);
+int set_slots(const Grid *grid, int count); ///< slot_capacity for `count` particles
 
-/// Sort by row and bin and cut into clusters; all fields follow. `histogram` [keys + 1].
-void set_sort(ParticleSet *set, const Grid *grid, int32_t *histogram, int threads);
-size_t grid_key_count(const Grid *grid);
+bool scratch_create(SortScratch *scratch, const Grid *grid, int slots, int threads, Arena *arena,
+                    Error *error);
+/// Sort by row and bin and cut into clusters; positions, fields and ids follow.
+void set_sort(ParticleSet *set, const Grid *grid, SortScratch *scratch);
 
 /// Boxes of clusters begin..end from the present positions.
 void set_boxes(ParticleSet *set, int begin, int end);
@@ -89,8 +103,9 @@ void set_boxes(ParticleSet *set, int begin, int end);
 /// left out. Grows the list when needed. @return false when memory is exhausted
 bool list_build(ClusterList *list, const ParticleSet *a, const ParticleSet *b, const Grid *grid,
                 bool half, int threads);
-bool list_create(ClusterList *list, const ParticleSet *a, uint32_t per_cluster, Arena *arena,
-                 Error *error);
+bool list_create(ClusterList *list, const ParticleSet *a, Arena *arena, Error *error);
+void list_destroy(ClusterList *list);
+size_t list_bytes(const ClusterList *list); ///< malloc'ed
 
 static inline int32_t to_coordinate(const Grid *grid, int axis, double metres)
 {

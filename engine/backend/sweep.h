@@ -22,6 +22,9 @@ typedef struct Sweep {
 
 typedef struct SweepTable {
     const char *level; ///< "x86-64-v3" …
+    /// Visit bits of clusters begin..end of `a`: clusters of `b` within the reach [unit^2].
+    void (*prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin, int end,
+                  float reach_squared);
     /// Acceleration sums of fluid clusters begin..end into fluid->rate, by mask; adds to the rates
     /// of clusters in the own and the next slab.
     void (*acceleration[2])(const Sweep *, int begin, int end);
