@@ -172,17 +172,18 @@ void cpu_refresh_boxes(Backend *b)
 
 static bool rebuild_lists(Backend *b)
 {
-    int threads = b->setup.threads;
-    bool built = list_build(&b->fluid_fluid, &b->fluid, &b->fluid, &b->grid, true, threads);
-    if (b->fixed.count)
-        built = built &&
-                list_build(&b->fluid_fixed, &b->fluid, &b->fixed, &b->grid, false, threads) &&
-                list_build(&b->fixed_fluid, &b->fixed, &b->fluid, &b->grid, false, threads);
-    if (b->moving.count)
-        built = built &&
-                list_build(&b->fluid_moving, &b->fluid, &b->moving, &b->grid, false, threads) &&
-                list_build(&b->moving_fluid, &b->moving, &b->fluid, &b->grid, false, threads);
-    return built;
+    ParticleSet *fluid = &b->fluid, *fixed = &b->fixed, *moving = &b->moving;
+    int (*near)(const Boxes *, int, const Boxes *, int, int, float, uint32_t *, int) =
+        b->table->near_clusters;
+    const ListOrder orders[] = {{&b->fluid_fluid, fluid, fluid, &b->grid, true, near},
+                                {&b->fluid_fixed, fluid, fixed, &b->grid, false, near},
+                                {&b->fixed_fluid, fixed, fluid, &b->grid, false, near},
+                                {&b->fluid_moving, fluid, moving, &b->grid, false, near},
+                                {&b->moving_fluid, moving, fluid, &b->grid, false, near}};
+    for (int k = 0; k < 5; k++)
+        if (orders[k].a->count && orders[k].b->count && !list_build(&orders[k], b->setup.threads))
+            return false;
+    return true;
 }
 
 static void prune_row(Backend *b, int row)

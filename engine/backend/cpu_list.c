@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "backend/particles.h"
+#include "backend/sweep.h"
 
 bool list_create(ClusterList *list, const ParticleSet *a, Arena *arena, Error *error)
 {
@@ -45,47 +45,35 @@ static int open_windows(const ParticleSet *b, const Grid *grid, int s, int c, bo
     return count;
 }
 
-/// Squared distance of two boxes [unit^2].
-static inline float box_gap(const Boxes *a, int i, const Boxes *b, int k)
-{
-    float sum = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        int32_t below = b->min[axis][k] - a->max[axis][i];
-        int32_t above = a->min[axis][i] - b->max[axis][k];
-        int32_t gap = below > above ? below : above;
-        float g = gap > 0 ? (float)gap : 0.0f;
-        sum += g * g;
-    }
-    return sum;
-}
-
 /// Neighbours of the clusters of one row; counts them when the list has no place for them yet.
-static void fill_row(ClusterList *list, const ParticleSet *a, const ParticleSet *b,
-                     const Grid *grid, bool half, int row, bool count_only)
+static void fill_row(const ListOrder *order, int row, bool count_only)
 {
+    const ParticleSet *a = order->a, *b = order->b;
+    const Grid *grid = order->grid;
     Window windows[(2 * ROW_REACH + 1) * (2 * ROW_REACH + 1)];
     if (a->row_begin[row] == a->row_begin[row + 1]) return;
-    int windows_open =
-        open_windows(b, grid, row / grid->across_rows, row % grid->across_rows, half, windows);
-    int along = grid->along;
+    int opened = open_windows(b, grid, row / grid->across_rows, row % grid->across_rows,
+                              order->half, windows);
+    const int32_t *a_min = a->boxes.min[grid->along], *a_max = a->boxes.max[grid->along];
+    const int32_t *b_min = b->boxes.min[grid->along], *b_max = b->boxes.max[grid->along];
     // clusters of a row are sorted by bin: their ends may overlap by one
     int32_t slack = grid->reach + grid->bin;
     for (int i = a->row_begin[row]; i < a->row_begin[row + 1]; i++) {
-        uint32_t *entry = count_only ? NULL : list->entry + list->begin[i], count = 0;
-        int32_t low = a->boxes.min[along][i] - slack, high = a->boxes.max[along][i] + slack;
-        for (int w = 0; w < windows_open; w++) {
-            int k = windows[w].cluster;
-            while (k < windows[w].end && b->boxes.max[along][k] < low - grid->bin)
-                k++;
-            windows[w].cluster = k;
-            for (; k < windows[w].end && b->boxes.min[along][k] <= high && count < ENTRIES_MAX; k++) {
-                if (half && k <= i) continue;
-                if (box_gap(&a->boxes, i, &b->boxes, k) >= grid->reach_squared) continue;
-                if (entry) entry[count] = (uint32_t)k;
-                count++;
-            }
+        uint32_t *entry = count_only ? NULL : order->list->entry + order->list->begin[i];
+        int32_t low = a_min[i] - slack, high = a_max[i] + slack;
+        int count = 0;
+        for (int w = 0; w < opened; w++) {
+            int begin = windows[w].cluster, end;
+            while (begin < windows[w].end && b_max[begin] < low - grid->bin)
+                begin++;
+            windows[w].cluster = begin;
+            if (order->half && begin <= i) begin = i + 1;
+            for (end = begin; end < windows[w].end && b_min[end] <= high;)
+                end++;
+            count += order->near_clusters(&a->boxes, i, &b->boxes, begin, end, grid->reach_squared,
+                                          entry ? entry + count : NULL, ENTRIES_MAX - count);
         }
-        list->count[i] = count;
+        order->list->count[i] = (uint32_t)count;
     }
 }
 
@@ -109,15 +97,15 @@ static bool make_room(ClusterList *list, int clusters)
     return list->entry_capacity > 0;
 }
 
-bool list_build(ClusterList *list, const ParticleSet *a, const ParticleSet *b, const Grid *grid,
-                bool half, int threads)
+bool list_build(const ListOrder *order, int threads)
 {
+    int rows = order->grid->row_count;
 #pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
-    for (int row = 0; row < grid->row_count; row++)
-        fill_row(list, a, b, grid, half, row, true);
-    if (!make_room(list, a->cluster_count)) return false;
+    for (int row = 0; row < rows; row++)
+        fill_row(order, row, true);
+    if (!make_room(order->list, order->a->cluster_count)) return false;
 #pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
-    for (int row = 0; row < grid->row_count; row++)
-        fill_row(list, a, b, grid, half, row, false);
+    for (int row = 0; row < rows; row++)
+        fill_row(order, row, false);
     return true;
 }

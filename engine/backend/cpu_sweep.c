@@ -3,92 +3,42 @@
 /// clusters a particle visits, `prune` has written as bits into the list: by its distance to their
 /// boxes, with a margin, so that many sweeps can use them.
 ///
-/// Compiled once per instruction level with SWEEP_TABLE set to the exported function's name and
-/// SWEEP_LEVEL to the level's.
+/// Compiled once per instruction level (sweep.h).
 #include "backend/sweep.h"
 
 #include <string.h>
 
 #include "physics/fluid.h"
 
-/// Boxes of one cluster's neighbours, side by side for the vectorised test.
-typedef struct Neighbourhood {
-    int count;
-    int32_t min[3][ENTRIES_MAX], max[3][ENTRIES_MAX];
-} Neighbourhood;
+/// The clusters that a particle visits, one after the other. Reading a bit runs beside the
+/// arithmetic of the visit before; written out first, the visits cost a tenth more.
+typedef struct Visits {
+    const uint32_t *entry;
+    const uint8_t *bits;
+    int at, bytes; ///< byte after those in `word`
+    uint64_t word; ///< bits not yet visited
+} Visits;
 
-static void gather_boxes(Neighbourhood *n, const ClusterList *list, int i, const Boxes *boxes)
+FN Visits visits_of(const ClusterList *list, int i, int l)
 {
-    const uint32_t *entry = list->entry + list->begin[i];
-    int count = (int)list->count[i];
-    n->count = count;
-    for (int k = 0; k < n->count; k++) {
-        uint32_t c = entry[k];
-        for (int a = 0; a < 3; a++) {
-            n->min[a][k] = boxes->min[a][c];
-            n->max[a][k] = boxes->max[a][c];
-        }
-    }
+    int bytes = ((int)list->count[i] + 7) / 8;
+    Visits v = {list->entry + list->begin[i], list->near + list->begin[i] + l * bytes, 0, bytes, 0};
+    return v;
 }
 
-/// Visit bits of one particle: clusters whose box lies within the reach of the point.
-static void write_near(const Neighbourhood *n, int32_t x, int32_t y, int32_t z, float reach_squared,
-                       uint8_t *bits)
+/// @param base  first slot of the next cluster   @return false when there is none
+FN bool visits_next(Visits *v, int *base)
 {
-    int32_t near[ENTRIES_MAX];
-#pragma omp simd
-    for (int k = 0; k < n->count; k++) {
-        int32_t bx = n->min[0][k] - x, ax = x - n->max[0][k];
-        int32_t by = n->min[1][k] - y, ay = y - n->max[1][k];
-        int32_t bz = n->min[2][k] - z, az = z - n->max[2][k];
-        bx = bx > ax ? bx : ax;
-        by = by > ay ? by : ay;
-        bz = bz > az ? bz : az;
-        float gx = (float)(bx > 0 ? bx : 0), gy = (float)(by > 0 ? by : 0);
-        float gz = (float)(bz > 0 ? bz : 0);
-        near[k] = gx * gx + gy * gy + gz * gz < reach_squared ? 1 << (k & 7) : 0;
+    while (!v->word) {
+        int left = v->bytes - v->at;
+        if (left <= 0) return false;
+        memcpy(&v->word, v->bits + v->at, sizeof v->word); // the list ends in spare bytes
+        if (left < 8) v->word &= (UINT64_C(1) << 8 * left) - 1;
+        v->at += 8;
     }
-    int bytes = (n->count + 7) / 8;
-    for (int k = n->count; k < 8 * bytes; k++)
-        near[k] = 0;
-    for (int byte = 0; byte < bytes; byte++) {
-        int32_t sum = 0;
-        for (int k = 0; k < 8; k++)
-            sum += near[8 * byte + k];
-        bits[byte] = (uint8_t)sum;
-    }
-}
-
-static void prune(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin, int end,
-                  float reach_squared)
-{
-    Neighbourhood n;
-    for (int i = begin; i < end; i++) {
-        if (!list->count[i]) continue;
-        gather_boxes(&n, list, i, &b->boxes);
-        int bytes = (n.count + 7) / 8;
-        for (int l = 0; l < CLUSTER; l++) {
-            int slot = i * CLUSTER + l;
-            write_near(&n, a->position[0][slot], a->position[1][slot], a->position[2][slot],
-                       reach_squared, list->near + list->begin[i] + l * bytes);
-        }
-    }
-}
-
-/// First slots of the clusters that particle l of cluster i visits. @return how many
-static int read_visits(const ClusterList *list, int i, int l, int32_t *visits)
-{
-    int entries = (int)list->count[i], bytes = (entries + 7) / 8, count = 0;
-    const uint32_t *entry = list->entry + list->begin[i];
-    const uint8_t *bits = list->near + list->begin[i] + l * bytes;
-    for (int byte = 0; byte < bytes; byte += 8) {
-        uint64_t word;
-        memcpy(&word, bits + byte, sizeof word); // the list ends in spare bytes
-        if (bytes - byte < 8) word &= (UINT64_C(1) << 8 * (bytes - byte)) - 1;
-        for (; word; word &= word - 1)
-            visits[count++] = (int32_t)entry[8 * byte + __builtin_ctzll(word)] * CLUSTER;
-    }
-    return count;
+    *base = (int)v->entry[8 * v->at - 64 + __builtin_ctzll(v->word)] * CLUSTER;
+    v->word &= v->word - 1;
+    return true;
 }
 
 /// A particle as scalars.
@@ -187,14 +137,14 @@ FN void visit_density(const Self *self, const ParticleSet *other, int base, cons
 }
 
 /// Push of wall clusters on one particle.
-static void push_of_walls(const Self *self, const ParticleSet *walls, const int32_t *visits,
-                          int count, const SweepConstants c, Lanes *total)
+static void push_of_walls(const Self *self, const ParticleSet *walls, Visits visits,
+                          const SweepConstants c, Lanes *total)
 {
     const Self own = *self;
     const ParticleSet set = *walls;
     Lanes sum = {{0}, {0}, {0}};
-    for (int k = 0; k < count; k++)
-        visit_momentum(&own, &set, visits[k], c, false, false, &sum);
+    for (int base; visits_next(&visits, &base);)
+        visit_momentum(&own, &set, base, c, false, false, &sum);
     for (int l = 0; l < CLUSTER; l++) {
         total->x[l] += sum.x[l];
         total->y[l] += sum.y[l];
@@ -203,14 +153,14 @@ static void push_of_walls(const Self *self, const ParticleSet *walls, const int3
 }
 
 /// Walls' part in the continuity of one particle.
-static void squeeze_of_walls(const Self *self, const ParticleSet *walls, const int32_t *visits,
-                             int count, const SweepConstants c, float total[CLUSTER])
+static void squeeze_of_walls(const Self *self, const ParticleSet *walls, Visits visits,
+                             const SweepConstants c, float total[CLUSTER])
 {
     const Self own = *self;
     const ParticleSet set = *walls;
     float sum[CLUSTER] = {0};
-    for (int k = 0; k < count; k++)
-        visit_density(&own, &set, visits[k], c, false, false, sum);
+    for (int base; visits_next(&visits, &base);)
+        visit_density(&own, &set, base, c, false, false, sum);
     for (int l = 0; l < CLUSTER; l++)
         total[l] += sum[l];
 }
@@ -218,16 +168,15 @@ static void squeeze_of_walls(const Self *self, const ParticleSet *walls, const i
 FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous)
 {
     ParticleSet *fluid = sweep->fluid;
-    int32_t visits[ENTRIES_MAX];
     const SweepConstants c = sweep->constants;
     Lanes sums[CLUSTER] = {0};
     for (int l = 0; l < CLUSTER; l++) {
         if (fluid->id[i * CLUSTER + l] < 0) continue;
         const Self self = self_of(fluid, i * CLUSTER + l);
-        int count = read_visits(sweep->fluid_fluid, i, l, visits);
+        Visits visits = visits_of(sweep->fluid_fluid, i, l);
         Lanes sum = {0};
-        for (int k = 0; k < count; k++)
-            visit_momentum(&self, fluid, visits[k], c, viscous, true, &sum);
+        for (int base; visits_next(&visits, &base);)
+            visit_momentum(&self, fluid, base, c, viscous, true, &sum);
         visit_momentum(&self, fluid, i * CLUSTER, c, viscous, false, &sum);
         sums[l] = sum;
     }
@@ -236,8 +185,8 @@ FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous)
         for (int l = 0; l < CLUSTER; l++) {
             if (fluid->id[i * CLUSTER + l] < 0) continue;
             const Self self = self_of(fluid, i * CLUSTER + l);
-            int count = read_visits(sweep->fluid_wall[set], i, l, visits);
-            push_of_walls(&self, sweep->walls[set], visits, count, c, &sums[l]);
+            push_of_walls(&self, sweep->walls[set], visits_of(sweep->fluid_wall[set], i, l), c,
+                          &sums[l]);
         }
     }
     for (int l = 0; l < CLUSTER; l++) {
@@ -250,16 +199,15 @@ FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous)
 FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive)
 {
     ParticleSet *fluid = sweep->fluid;
-    int32_t visits[ENTRIES_MAX];
     const SweepConstants c = sweep->constants;
     float sums[CLUSTER][CLUSTER] = {{0}};
     for (int l = 0; l < CLUSTER; l++) {
         if (fluid->id[i * CLUSTER + l] < 0) continue;
         const Self self = self_of(fluid, i * CLUSTER + l);
-        int count = read_visits(sweep->fluid_fluid, i, l, visits);
+        Visits visits = visits_of(sweep->fluid_fluid, i, l);
         float sum[CLUSTER] = {0};
-        for (int k = 0; k < count; k++)
-            visit_density(&self, fluid, visits[k], c, diffusive, true, sum);
+        for (int base; visits_next(&visits, &base);)
+            visit_density(&self, fluid, base, c, diffusive, true, sum);
         visit_density(&self, fluid, i * CLUSTER, c, diffusive, false, sum);
         memcpy(sums[l], sum, sizeof sum);
     }
@@ -268,8 +216,8 @@ FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive)
         for (int l = 0; l < CLUSTER; l++) {
             if (fluid->id[i * CLUSTER + l] < 0) continue;
             const Self self = self_of(fluid, i * CLUSTER + l);
-            int count = read_visits(sweep->fluid_wall[set], i, l, visits);
-            squeeze_of_walls(&self, sweep->walls[set], visits, count, c, sums[l]);
+            squeeze_of_walls(&self, sweep->walls[set], visits_of(sweep->fluid_wall[set], i, l), c,
+                             sums[l]);
         }
     }
     for (int l = 0; l < CLUSTER; l++)
@@ -341,7 +289,6 @@ static void extrapolate(const Sweep *sweep, int set, int begin, int end)
     ParticleSet *wall = sweep->walls[set];
     const ParticleSet *fluid = sweep->fluid;
     const ClusterList *list = sweep->wall_fluid[set];
-    int32_t visits[ENTRIES_MAX];
     for (int i = begin; i < end; i++) {
         if (!list->count[i]) {
             for (int l = 0; l < CLUSTER; l++)
@@ -352,10 +299,10 @@ static void extrapolate(const Sweep *sweep, int set, int begin, int end)
             int slot = i * CLUSTER + l;
             if (wall->id[slot] < 0) continue;
             const Self self = self_of(wall, slot);
-            int count = read_visits(list, i, l, visits);
+            Visits visits = visits_of(list, i, l);
             Shepard sum = {{0}, {0}, {0}, {0}, {0}};
-            for (int k = 0; k < count; k++)
-                visit_extrapolation(&self, fluid, visits[k], sweep, &sum);
+            for (int base; visits_next(&visits, &base);)
+                visit_extrapolation(&self, fluid, base, sweep, &sum);
             float acceleration[3] = {0, 0, 0};
             for (int a = 0; a < 3 && set == 1; a++)
                 acceleration[a] = wall->field[WALL_ACCELERATION_X + a][slot];
@@ -371,16 +318,15 @@ static void loads(const Sweep *sweep, int begin, int end)
     ParticleSet *wall = sweep->walls[1];
     const ClusterList *list = sweep->wall_fluid[1];
     const SweepConstants c = sweep->constants;
-    int32_t visits[ENTRIES_MAX];
     for (int i = begin; i < end; i++) {
         for (int l = 0; l < CLUSTER; l++) {
             int slot = i * CLUSTER + l, id = wall->id[slot];
             Lanes sum = {0};
             if (id >= 0 && sweep->moving_owner[id] >= 0 && list->count[i]) {
                 const Self self = self_of(wall, slot);
-                int count = read_visits(list, i, l, visits);
-                for (int k = 0; k < count; k++)
-                    visit_momentum(&self, sweep->fluid, visits[k], c, false, false, &sum);
+                Visits visits = visits_of(list, i, l);
+                for (int base; visits_next(&visits, &base);)
+                    visit_momentum(&self, sweep->fluid, base, c, false, false, &sum);
             }
             wall->rate[0][slot] = lanes_total(sum.x);
             wall->rate[1][slot] = lanes_total(sum.y);
@@ -389,11 +335,12 @@ static void loads(const Sweep *sweep, int begin, int end)
     }
 }
 
-const SweepTable *SWEEP_TABLE(void)
+const SweepTable *AT_LEVEL(sweep_table)(void)
 {
     static const SweepTable table = {
         SWEEP_LEVEL,
-        prune,
+        AT_LEVEL(near_clusters),
+        AT_LEVEL(near_prune),
         {acceleration_plain, acceleration_viscous},
         {density_plain, density_diffusive},
         extrapolate,

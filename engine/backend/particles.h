@@ -99,10 +99,6 @@ void set_sort(ParticleSet *set, const Grid *grid, SortScratch *scratch);
 /// Boxes of clusters begin..end from the present positions.
 void set_boxes(ParticleSet *set, int begin, int end);
 
-/// Clusters of `b` within reach of each cluster of `a`. `half`: a == b, each pair once, own cluster
-/// left out. Grows the list when needed. @return false when memory is exhausted
-bool list_build(ClusterList *list, const ParticleSet *a, const ParticleSet *b, const Grid *grid,
-                bool half, int threads);
 bool list_create(ClusterList *list, const ParticleSet *a, Arena *arena, Error *error);
 void list_destroy(ClusterList *list);
 size_t list_bytes(const ClusterList *list); ///< malloc'ed

@@ -1,6 +1,6 @@
-/// The neighbour sweeps: loops of physics/pair.h over lists of clusters. cpu_sweep.c is compiled
-/// once per instruction level; each build exports one SweepTable and the best one is chosen at
-/// start.
+/// The neighbour sweeps: loops of physics/pair.h over lists of clusters. cpu_near.c and cpu_sweep.c
+/// are compiled once per instruction level; each build exports one SweepTable and the best one is
+/// chosen at start.
 #ifndef FAIRLEAD_BACKEND_SWEEP_H
 #define FAIRLEAD_BACKEND_SWEEP_H
 
@@ -22,6 +22,10 @@ typedef struct Sweep {
 
 typedef struct SweepTable {
     const char *level; ///< "x86-64-v3" …
+    /// Clusters begin..end of `b` whose boxes lie within the reach [unit^2] of box i of `a`: their
+    /// numbers into `entry` [room], or only their count when NULL. @return how many, at most room
+    int (*near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
+                         float reach_squared, uint32_t *entry, int room);
     /// Visit bits of clusters begin..end of `a`: clusters of `b` within the reach [unit^2].
     void (*prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin, int end,
                   float reach_squared);
@@ -43,7 +47,32 @@ const SweepTable *sweep_table_v4(void);
 #else
 const SweepTable *sweep_table_native(void);
 #endif
+
+// Files compiled once per level name what they export after it: sweep_table_v3 …
+#if defined(SWEEP_SUFFIX)
+#define AT_LEVEL_JOIN(name, suffix) name##_##suffix
+#define AT_LEVEL_EXPAND(name, suffix) AT_LEVEL_JOIN(name, suffix)
+#define AT_LEVEL(name) AT_LEVEL_EXPAND(name, SWEEP_SUFFIX)
+int AT_LEVEL(near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
+                            float reach_squared, uint32_t *entry, int room);
+void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
+                          int end, float reach_squared);
+#endif
+
 /// The best table this processor runs. FAIRLEAD_LEVEL=x86-64-v2|v3|v4 asks for a lower one.
 const SweepTable *sweep_table_choose(void);
+
+/// Which list to build: clusters of `b` within reach of each cluster of `a`.
+typedef struct ListOrder {
+    ClusterList *list;
+    const ParticleSet *a, *b;
+    const Grid *grid;
+    bool half; ///< a == b, each pair once, own cluster left out
+    int (*near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
+                         float reach_squared, uint32_t *entry, int room);
+} ListOrder;
+
+/// Grows the list when needed. @return false when memory is exhausted
+bool list_build(const ListOrder *order, int threads);
 
 #endif
