@@ -109,7 +109,7 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     Backend *b;
     TRY(b = arena_take(arena, 1, sizeof *b, "backend", error));
     b->setup = *setup;
-    b->skin = maxd(0.3 * setup->spacing, mind(6 * setup->largest_travel, 0.8 * setup->spacing));
+    b->skin = maxd(0.3 * setup->spacing, mind(14 * setup->largest_travel, 0.8 * setup->spacing));
     b->grid = grid_create(setup->room_min, setup->room_max, setup->dimensions,
                           2 * setup->smoothing_length, b->skin, setup->spacing);
     double rows = (double)b->grid.slab_rows * b->grid.across_rows;

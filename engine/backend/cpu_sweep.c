@@ -247,11 +247,13 @@ static void density_diffusive(const Sweep *sweep, int begin, int end)
 
 /// Sums of the dummy extrapolation.
 typedef struct Shepard {
-    float weight[CLUSTER], pressure[CLUSTER], rho_x[CLUSTER], rho_y[CLUSTER], rho_z[CLUSTER];
+    float weight[CLUSTER], pressure[CLUSTER];
 } Shepard;
 
+/// @param pull  g - a_w of the dummy times unit and rho0: (pull . x) (1 + excess) is the pressure
+///              that a column between fluid and dummy adds [Pa/unit]; fixed dummies feel only gravity
 FN void visit_extrapolation(const Self *self, const ParticleSet *fluid, int base,
-                            const Sweep *sweep, Shepard *sum)
+                            const Sweep *sweep, const float pull[3], bool moving, Shepard *sum)
 {
     const int32_t *RESTRICT px = fluid->position[0] + base,
                             *RESTRICT py = fluid->position[1] + base;
@@ -262,55 +264,56 @@ FN void visit_extrapolation(const Self *self, const ParticleSet *fluid, int base
         float dx = (float)(self->x - px[l]), dy = (float)(self->y - py[l]);
         float dz = (float)(self->z - pz[l]);
         float s = pair_closeness(dx * dx + dy * dy + dz * dz, sweep->constants.inverse_support);
-        float weight = kernel_value(s), density = weight * (1.0f + excess[l]);
+        float weight = kernel_value(s);
+        float column = moving ? pull[0] * dx + pull[1] * dy + pull[2] * dz : pull[2] * dz;
         sum->weight[l] += weight;
-        sum->pressure[l] += weight * tait_pressure(excess[l], sweep->tait_b);
-        sum->rho_x[l] += density * dx;
-        sum->rho_y[l] += density * dy;
-        sum->rho_z[l] += density * dz;
+        sum->pressure[l] += weight * (tait_pressure(excess[l], sweep->tait_b) +
+                                      column * (1.0f + excess[l]));
     }
 }
 
+/// Pressure of one dummy particle,
 /// p_w = (sum p_f W + (g - a_w) . sum rho_f x_wf W) / sum W, never below zero (no suction at
 /// walls). Source: Adami, Hu & Adams (2012), doi:10.1016/j.jcp.2012.05.005, eq. 27.
-FN float extrapolated_pressure(const Shepard *sum, const Sweep *sweep, const float acceleration[3])
+FN float extrapolated_pressure(const Sweep *sweep, const ClusterList *list, int set, int i, int l)
 {
-    float weight = lanes_total(sum->weight);
+    const ParticleSet *wall = sweep->walls[set];
+    const Self self = self_of(wall, i * CLUSTER + l);
+    float pull[3], column = sweep->rest_density * sweep->unit;
+    for (int a = 0; a < 3; a++) {
+        float acceleration = set == 1 ? wall->field[WALL_ACCELERATION_X + a][i * CLUSTER + l] : 0;
+        pull[a] = column * (sweep->gravity[a] - acceleration);
+    }
+    Visits visits = visits_of(list, i, l);
+    Shepard sum = {{0}, {0}};
+    for (int base; visits_next(&visits, &base);)
+        visit_extrapolation(&self, sweep->fluid, base, sweep, pull, set == 1, &sum);
+    float weight = lanes_total(sum.weight);
     if (weight < 1e-6f) return 0.0f;
-    float lift = (sweep->gravity[0] - acceleration[0]) * lanes_total(sum->rho_x) +
-                 (sweep->gravity[1] - acceleration[1]) * lanes_total(sum->rho_y) +
-                 (sweep->gravity[2] - acceleration[2]) * lanes_total(sum->rho_z);
-    float p = (lanes_total(sum->pressure) + sweep->rest_density * sweep->unit * lift) / weight;
+    float p = lanes_total(sum.pressure) / weight;
     return p > 0.0f ? p : 0.0f;
+}
+
+FN void extrapolate_set(const Sweep *sweep, int set, int begin, int end)
+{
+    ParticleSet *wall = sweep->walls[set];
+    const ClusterList *list = sweep->wall_fluid[set];
+    for (int i = begin; i < end; i++)
+        for (int l = 0; l < CLUSTER; l++) {
+            float p = 0;
+            if (list->count[i] && wall->id[i * CLUSTER + l] >= 0)
+                p = extrapolated_pressure(sweep, list, set, i, l);
+            float rho = sweep->rest_density * (1.0f + tait_excess(p, sweep->tait_b));
+            wall->pressure[i * CLUSTER + l] = p / (rho * rho);
+        }
 }
 
 static void extrapolate(const Sweep *sweep, int set, int begin, int end)
 {
-    ParticleSet *wall = sweep->walls[set];
-    const ParticleSet *fluid = sweep->fluid;
-    const ClusterList *list = sweep->wall_fluid[set];
-    for (int i = begin; i < end; i++) {
-        if (!list->count[i]) {
-            for (int l = 0; l < CLUSTER; l++)
-                wall->pressure[i * CLUSTER + l] = 0;
-            continue;
-        }
-        for (int l = 0; l < CLUSTER; l++) {
-            int slot = i * CLUSTER + l;
-            if (wall->id[slot] < 0) continue;
-            const Self self = self_of(wall, slot);
-            Visits visits = visits_of(list, i, l);
-            Shepard sum = {{0}, {0}, {0}, {0}, {0}};
-            for (int base; visits_next(&visits, &base);)
-                visit_extrapolation(&self, fluid, base, sweep, &sum);
-            float acceleration[3] = {0, 0, 0};
-            for (int a = 0; a < 3 && set == 1; a++)
-                acceleration[a] = wall->field[WALL_ACCELERATION_X + a][slot];
-            float p = extrapolated_pressure(&sum, sweep, acceleration);
-            float rho = sweep->rest_density * (1.0f + tait_excess(p, sweep->tait_b));
-            wall->pressure[slot] = p / (rho * rho);
-        }
-    }
+    if (set == 0)
+        extrapolate_set(sweep, 0, begin, end);
+    else
+        extrapolate_set(sweep, 1, begin, end);
 }
 
 static void loads(const Sweep *sweep, int begin, int end)
