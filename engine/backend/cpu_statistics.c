@@ -49,11 +49,6 @@ static void count_neighbours(const Backend *b, BackendStatistics *statistics)
     statistics->neighbours_dummy = (double)near_dummies / (sample ? sample : 1);
 }
 
-static size_t list_bytes(const ClusterList *list)
-{
-    return list->entry_capacity * sizeof *list->entry;
-}
-
 void cpu_statistics(const Backend *b, BackendStatistics *statistics)
 {
     memset(statistics, 0, sizeof *statistics);

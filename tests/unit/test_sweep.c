@@ -161,6 +161,53 @@ TEST(bits_do_not_depend_on_the_thread_count)
     CHECK(!memcmp(d[0], d[1], sizeof d[0]));
 }
 
+/// Root-mean-square difference of the rates, relative.
+static double difference(const float *a, const float *b, int count)
+{
+    double error = 0, size = 0;
+    for (int i = 0; i < count; i++) {
+        error += ((double)a[i] - b[i]) * ((double)a[i] - b[i]);
+        size += (double)b[i] * b[i];
+    }
+    return sqrt(error / size);
+}
+
+// One backend keeps its lists and visit bits for several steps, the other makes them anew.
+TEST(lists_miss_no_pair_while_the_water_moves)
+{
+    static float old_a[N][3], old_d[N], new_a[N][3], new_d[N];
+    BackendSetup setup = random_water(3, 0, 8);
+    setup.largest_travel = 0.04; // a skin of 0.8 spacings
+    ParticleStart start = all_fluid(N);
+    Arena arena = arena_create(0);
+    Backend *kept, *fresh;
+    Error error = {0};
+    const BackendTable *cpu = backend_cpu();
+    CHECK(cpu->create(&setup, &start, &arena, &kept, &error));
+    CHECK(cpu->create(&setup, &start, &arena, &fresh, &error));
+    void *saved = arena_take(&arena, cpu->state_size(kept), 1, "saved", &error);
+    Advance advance;
+    memset(&advance, 0, sizeof advance);
+    advance.dt = 0.0005;
+    ParticleSums sums;
+    BackendStatistics statistics;
+    for (int step = 0; step < 100; step++) {
+        CHECK(cpu->forces(kept, NULL, NULL, &error));
+        cpu->advance(kept, &advance, &sums);
+        CHECK(cpu->probe_rates(kept, old_a, old_d, &error));
+        cpu->save(kept, saved);
+        cpu->restore(fresh, saved);
+        CHECK(cpu->probe_rates(fresh, new_a, new_d, &error));
+        CHECK_NEAR(difference(old_a[0], new_a[0], 3 * N), 0, 1e-6);
+        CHECK_NEAR(difference(old_d, new_d, N), 0, 1e-6);
+    }
+    cpu->statistics(kept, &statistics);
+    CHECK_NEAR(statistics.sorts, 20, 15);
+    cpu->destroy(kept);
+    cpu->destroy(fresh);
+    arena_destroy(&arena);
+}
+
 TEST(a_density_spike_decays)
 {
     static float a[N][3], d[N];
