@@ -40,6 +40,10 @@ static BackendSetup random_water(int dimensions, double far, unsigned seed)
     s.room_max[0] = far + 1.5;
     s.room_min[1] = s.room_min[2] = -0.5;
     s.room_max[1] = s.room_max[2] = 1.5;
+    for (int a = 0; a < 3; a++) {
+        s.barrier_min[a] = -INFINITY;
+        s.barrier_max[a] = INFINITY;
+    }
     s.spacing = DP;
     s.smoothing_length = 2 * DP;
     s.particle_mass = RHO0 * DP * DP * (dimensions == 2 ? 1 : DP);
@@ -161,15 +165,12 @@ TEST(bits_do_not_depend_on_the_thread_count)
     CHECK(!memcmp(d[0], d[1], sizeof d[0]));
 }
 
-/// Root-mean-square difference of the rates, relative.
-static double difference(const float *a, const float *b, int count)
+static double largest_difference(const float *a, const float *b, int count)
 {
-    double error = 0, size = 0;
-    for (int i = 0; i < count; i++) {
-        error += ((double)a[i] - b[i]) * ((double)a[i] - b[i]);
-        size += (double)b[i] * b[i];
-    }
-    return sqrt(error / size);
+    double largest = 0;
+    for (int i = 0; i < count; i++)
+        largest = fmax(largest, fabs((double)a[i] - b[i]));
+    return largest;
 }
 
 // One backend keeps its lists and visit bits for several steps, the other makes them anew.
@@ -178,6 +179,12 @@ TEST(lists_miss_no_pair_while_the_water_moves)
     static float old_a[N][3], old_d[N], new_a[N][3], new_d[N];
     BackendSetup setup = random_water(3, 0, 8);
     setup.largest_travel = 0.04; // a skin of 0.8 spacings
+    for (int i = 0; i < N; i++) {
+        int ix = i % NX, iy = i / NX % NY, iz = i / (NX * NY);
+        place[i] = vec3(DP * (ix + 0.5), DP * (iy + 0.5), DP * (iz + 0.5));
+        velocity[i] = vec3(iz < NZ / 2 ? 1 : -1, 0, 0); // two streams
+        excess[i] = 0;
+    }
     ParticleStart start = all_fluid(N);
     Arena arena = arena_create(0);
     Backend *kept, *fresh;
@@ -188,9 +195,10 @@ TEST(lists_miss_no_pair_while_the_water_moves)
     void *saved = arena_take(&arena, cpu->state_size(kept), 1, "saved", &error);
     Advance advance;
     memset(&advance, 0, sizeof advance);
-    advance.dt = 0.0005;
+    advance.dt = 0.002;
     ParticleSums sums;
     BackendStatistics statistics;
+    double worst_a = 0, worst_d = 0;
     for (int step = 0; step < 100; step++) {
         CHECK(cpu->forces(kept, NULL, NULL, &error));
         cpu->advance(kept, &advance, &sums);
@@ -198,11 +206,13 @@ TEST(lists_miss_no_pair_while_the_water_moves)
         cpu->save(kept, saved);
         cpu->restore(fresh, saved);
         CHECK(cpu->probe_rates(fresh, new_a, new_d, &error));
-        CHECK_NEAR(difference(old_a[0], new_a[0], 3 * N), 0, 1e-6);
-        CHECK_NEAR(difference(old_d, new_d, N), 0, 1e-6);
+        worst_a = fmax(worst_a, largest_difference(old_a[0], new_a[0], 3 * N));
+        worst_d = fmax(worst_d, largest_difference(old_d, new_d, N));
     }
+    CHECK_NEAR(worst_a, 0, 2e-4);
+    CHECK_NEAR(worst_d, 0, 1e-4);
     cpu->statistics(kept, &statistics);
-    CHECK_NEAR(statistics.sorts, 20, 15);
+    CHECK_NEAR(statistics.sorts, 14, 8);
     cpu->destroy(kept);
     cpu->destroy(fresh);
     arena_destroy(&arena);
