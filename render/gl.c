@@ -24,7 +24,8 @@ static const char *shader_text(const char *name, const char *stage)
     return NULL;
 }
 
-static GLuint compile(const Gl *gl, GLenum type, const char *name, const char *stage, Error *error)
+static GLuint compile(const Gl *gl, GLenum type, const char *name, const char *stage,
+                      const char *defines, Error *error)
 {
     const char *text = shader_text(name, stage);
     if (!text) {
@@ -33,9 +34,9 @@ static GLuint compile(const Gl *gl, GLenum type, const char *name, const char *s
     }
     const char *parts[] = {type == GL_FRAGMENT_SHADER ? "#version 330 core\n#define FRAGMENT\n"
                                                       : "#version 330 core\n",
-                           shader_text("common", NULL), "#line 1\n", text};
+                           defines, shader_text("common", NULL), "#line 1\n", text};
     GLuint shader = gl->CreateShader(type);
-    gl->ShaderSource(shader, 4, parts, NULL);
+    gl->ShaderSource(shader, 5, parts, NULL);
     gl->CompileShader(shader);
     GLint good = 0;
     gl->GetShaderiv(shader, GL_COMPILE_STATUS, &good);
@@ -49,9 +50,15 @@ static GLuint compile(const Gl *gl, GLenum type, const char *name, const char *s
 
 GLuint gl_program(const Gl *gl, const char *name, const char *const *samplers, Error *error)
 {
-    GLuint vertex = compile(gl, GL_VERTEX_SHADER, name, "vert", error);
+    return gl_program_variant(gl, name, "", samplers, error);
+}
+
+GLuint gl_program_variant(const Gl *gl, const char *name, const char *defines,
+                          const char *const *samplers, Error *error)
+{
+    GLuint vertex = compile(gl, GL_VERTEX_SHADER, name, "vert", defines, error);
     if (!vertex) return 0;
-    GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, name, "frag", error);
+    GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, name, "frag", defines, error);
     if (!fragment) {
         gl->DeleteShader(vertex);
         return 0;
@@ -164,6 +171,21 @@ bool gl_target_resize(const Gl *gl, Target *target, int width, int height, bool 
     gl_target_destroy(gl, target);
     return error_set(error, ERROR_SYSTEM, "a picture of %d x %d pixels cannot be allocated", width,
                      height);
+}
+
+void gl_target_use(const Gl *gl, const Target *target)
+{
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+    gl->Viewport(0, 0, target->width, target->height);
+}
+
+void gl_target_copy(const Gl *gl, const Target *from, const Target *to, GLbitfield what)
+{
+    bool same = from->width == to->width;
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, from->framebuffer);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, to->framebuffer);
+    gl->BlitFramebuffer(0, 0, from->width, from->height, 0, 0, to->width, to->height, what,
+                        same ? GL_NEAREST : GL_LINEAR);
 }
 
 void gl_target_destroy(const Gl *gl, Target *target)

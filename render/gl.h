@@ -83,6 +83,9 @@ enum { GL_FRAME_BINDING = 0 };
 /// Samplers named in `samplers` (NULL-terminated) get the texture units 0, 1, …
 /// @return 0 with ERROR_SYSTEM carrying the first lines of the driver's log
 GLuint gl_program(const Gl *gl, const char *name, const char *const *samplers, Error *error);
+/// The same with lines put before both shaders. @param defines  "#define WALL\n"
+GLuint gl_program_variant(const Gl *gl, const char *name, const char *defines,
+                          const char *const *samplers, Error *error);
 
 /// OpenGL takes offsets into buffers as pointers.
 static inline const void *gl_offset(size_t bytes)
@@ -111,6 +114,10 @@ typedef struct Target {
 /// Make or resize. @param with_depth  depth texture, 24 bit
 bool gl_target_resize(const Gl *gl, Target *target, int width, int height, bool with_depth,
                       Error *error);
+/// Draw into it from now on, all of it.
+void gl_target_use(const Gl *gl, const Target *target);
+/// Copy one to the other; a larger one is averaged. @param what  GL_COLOR_BUFFER_BIT, …
+void gl_target_copy(const Gl *gl, const Target *from, const Target *to, GLbitfield what);
 void gl_target_destroy(const Gl *gl, Target *target);
 
 /// A texture with linear filtering and clamped edges; format as for glTexImage2D, 8 bits a channel.

@@ -12,9 +12,14 @@
 /// Backdrop and sea bed (stage.c).
 typedef struct Stage {
     GLuint backdrop, bed, array;
+    Target kept;      ///< the stage as last drawn for a live picture
+    FrameBlock drawn; ///< what it was drawn with, of what the stage looks at
 } Stage;
 bool stage_create(Stage *stage, const Gl *gl, Error *error);
-void stage_draw(const Stage *stage, const Gl *gl, const Frame *frame);
+/// Draw into `target`, which is bound. It is the same from picture to picture until the camera
+/// moves, so live pictures copy it. @param keep  false for a still: its size is not worth keeping
+bool stage_draw(Stage *stage, const Gl *gl, const Frame *frame, const Target *target, bool keep,
+                Error *error);
 void stage_destroy(Stage *stage, const Gl *gl);
 
 /// Ships and other bodies (bodies.c).
@@ -58,12 +63,12 @@ void lines_destroy(Lines *lines, const Gl *gl);
 
 /// Free surface and side walls of the water (water.c).
 typedef struct Water {
-    GLuint program;
+    GLuint surface_program[2], wall_program[2]; ///< plain, coloured by the field
     HeightField field;
     CutFaces cut;
     GLuint cut_texture; ///< the field on the cut faces, 32-bit floats
     bool cut_shown;
-    GLint faces;
+    GLint faces; ///< of the coloured wall's program
     Mesh surface, walls;
     int shape[2]; ///< nodes the indices were made for
     Scratch vertices, scalar, shell;

@@ -10,8 +10,8 @@
 #include "encode.h"
 #include "parts.h"
 
-/// Most nodes of the drawn surface. llvmpipe sets triangles up one after another, about 0.3 us
-/// each.
+/// Most nodes of the drawn surface. llvmpipe shades in blocks of 4 x 4 pixels, so that it works
+/// through a small triangle's pixels several times.
 enum { NODES_SOFTWARE = 14000, NODES_HARDWARE = 160000, NODES_STILL = 90000 };
 
 struct Render {
@@ -129,25 +129,10 @@ void render_destroy(Render *render)
 
 const char *render_description(const Render *render) { return render->description; }
 
-static void use_target(const Gl *gl, const Target *target)
-{
-    gl->BindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
-    gl->Viewport(0, 0, target->width, target->height);
-}
-
 static void use_texture(const Gl *gl, int unit, GLuint texture)
 {
     gl->ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
     gl->BindTexture(GL_TEXTURE_2D, texture);
-}
-
-static void copy_target(const Gl *gl, const Target *from, const Target *to, GLbitfield what)
-{
-    bool same = from->width == to->width;
-    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, from->framebuffer);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, to->framebuffer);
-    gl->BlitFramebuffer(0, 0, from->width, from->height, 0, 0, to->width, to->height, what,
-                        same ? GL_NEAREST : GL_LINEAR);
 }
 
 /// The ships as the still water mirrors them, at half size.
@@ -156,7 +141,7 @@ static bool draw_mirror(Render *render, const Frame *frame, Error *error)
     const Gl *gl = &render->gl;
     TRY(gl_target_resize(gl, &render->mirror, render->scene.width / 2, render->scene.height / 2,
                          true, error));
-    use_target(gl, &render->mirror);
+    gl_target_use(gl, &render->mirror);
     gl->ClearColor(0, 0, 0, 0);
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bodies_draw(&render->bodies, gl, frame, &render->water.field);
@@ -167,7 +152,7 @@ static bool draw_water(Render *render, const Frame *frame, Error *error)
 {
     const Gl *gl = &render->gl;
     TRY(draw_mirror(render, frame, error));
-    use_target(gl, &render->scene);
+    gl_target_use(gl, &render->scene);
     use_texture(gl, 0, render->behind.colour);
     use_texture(gl, 1, render->behind.depth);
     use_texture(gl, 2, render->maps);
@@ -182,14 +167,13 @@ static bool draw_scene(Render *render, const Frame *frame, Error *error)
     gl->BindBuffer(GL_UNIFORM_BUFFER, render->frame_buffer_object);
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof frame->block, &frame->block, GL_STREAM_DRAW);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, GL_FRAME_BINDING, render->frame_buffer_object);
-    use_target(gl, &render->scene);
-    gl->Clear(GL_DEPTH_BUFFER_BIT);
-    stage_draw(&render->stage, gl, frame);
+    gl_target_use(gl, &render->scene);
+    TRY(stage_draw(&render->stage, gl, frame, &render->scene, frame->view->samples < 4, error));
     bodies_draw(&render->bodies, gl, frame, NULL);
-    copy_target(gl, &render->scene, &render->behind, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl_target_copy(gl, &render->scene, &render->behind, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bool particles = frame->view->water == WATER_PARTICLES;
     if (particles) {
-        use_target(gl, &render->scene);
+        gl_target_use(gl, &render->scene);
         use_texture(gl, 0, render->maps);
         TRY(particles_draw(&render->particles, gl, frame, &render->water, error));
     } else {
@@ -236,6 +220,14 @@ static bool resize_targets(Render *render, int width, int height, Error *error)
     return true;
 }
 
+/// Nodes of a live picture in software: no closer than dp, over which the surface is smoothed.
+static int live_nodes(const Snapshot *snapshot)
+{
+    const Domain *domain = &snapshot->domain;
+    Vec3 size = vec3_scale(vec3_sub(domain->max, domain->min), 1.0 / snapshot->spacing);
+    return domain->dimensions == 3 ? (int)mind(size.x * size.y, NODES_SOFTWARE) : NODES_SOFTWARE;
+}
+
 bool render_draw(Render *render, const Snapshot *snapshot, const ViewOptions *view, Error *error)
 {
     const Gl *gl = &render->gl;
@@ -248,7 +240,7 @@ bool render_draw(Render *render, const Snapshot *snapshot, const ViewOptions *vi
     Frame frame;
     double largest = 0.0;
     frame_begin(&frame, snapshot, view, render->scene.width, render->scene.height);
-    if (render->software) render->water.node_limit = zoom > 1 ? NODES_STILL : NODES_SOFTWARE;
+    if (render->software) render->water.node_limit = zoom > 1 ? NODES_STILL : live_nodes(snapshot);
     TRY(bodies_update(&render->bodies, gl, &frame, error));
     TRY(water_update(&render->water, &frame, &largest, error));
     frame_scales(&frame, &render->ranges, largest);
@@ -257,11 +249,11 @@ bool render_draw(Render *render, const Snapshot *snapshot, const ViewOptions *vi
     const Target *shown = &render->scene;
     if (zoom > 1) {
         TRY(gl_target_resize(gl, &render->final, view->width, view->height, false, error));
-        copy_target(gl, &render->scene, &render->final, GL_COLOR_BUFFER_BIT);
+        gl_target_copy(gl, &render->scene, &render->final, GL_COLOR_BUFFER_BIT);
         shown = &render->final;
     }
     if (view->overlay) {
-        use_target(gl, shown);
+        gl_target_use(gl, shown);
         frame.block.target =
             vec4f(view->width, view->height, 1.0 / view->width, 1.0 / view->height);
         gl->BufferData(GL_UNIFORM_BUFFER, sizeof frame.block, &frame.block, GL_STREAM_DRAW);

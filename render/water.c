@@ -7,12 +7,20 @@ typedef struct WaterVertex {
     float position[3], wet, normal[3], value, below;
 } WaterVertex;
 
-bool water_create(Water *water, const Gl *gl, int node_limit, Error *error)
+static GLuint water_program(const Gl *gl, const char *defines, Error *error)
 {
     static const char *const samplers[] = {"opaque_colour", "opaque_depth", "maps",
                                            "mirror",        "cut",          NULL};
-    TRY(water->program = gl_program(gl, "water", samplers, error));
-    water->faces = gl->GetUniformLocation(water->program, "faces");
+    return gl_program_variant(gl, "water", defines, samplers, error);
+}
+
+bool water_create(Water *water, const Gl *gl, int node_limit, Error *error)
+{
+    TRY(water->surface_program[0] = water_program(gl, "", error));
+    TRY(water->surface_program[1] = water_program(gl, "#define COLOURED\n", error));
+    TRY(water->wall_program[0] = water_program(gl, "#define WALL\n", error));
+    TRY(water->wall_program[1] = water_program(gl, "#define WALL\n#define COLOURED\n", error));
+    water->faces = gl->GetUniformLocation(water->wall_program[1], "faces");
     const int sizes[] = {4, 4, 1, 0};
     gl_mesh_create(gl, &water->surface, sizes);
     gl_mesh_create(gl, &water->walls, sizes);
@@ -23,7 +31,10 @@ bool water_create(Water *water, const Gl *gl, int node_limit, Error *error)
 
 void water_destroy(Water *water, const Gl *gl)
 {
-    gl->DeleteProgram(water->program);
+    for (int coloured = 0; coloured < 2; coloured++) {
+        gl->DeleteProgram(water->surface_program[coloured]);
+        gl->DeleteProgram(water->wall_program[coloured]);
+    }
     gl_mesh_destroy(gl, &water->surface);
     gl_mesh_destroy(gl, &water->walls);
     gl->DeleteTextures(1, &water->cut_texture);
@@ -245,11 +256,13 @@ bool water_draw(Water *water, const Gl *gl, const Frame *frame, Error *error)
         gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, water->cut.width, water->cut.rows, 0, GL_RED,
                        GL_FLOAT, water->cut.value);
     }
-    gl->UseProgram(water->program);
-    gl->Uniform4f(water->faces, (float)water->cut.bed, (float)water->cut.step,
-                  (float)water->cut.rows, water->cut_shown);
+    gl->UseProgram(water->wall_program[water->cut_shown]);
+    if (water->cut_shown)
+        gl->Uniform3f(water->faces, (float)water->cut.bed, (float)water->cut.step,
+                      (float)water->cut.rows);
     gl->BindVertexArray(water->walls.array);
     gl->DrawElements(GL_TRIANGLES, water->walls.index_count, GL_UNSIGNED_INT, NULL);
+    gl->UseProgram(water->surface_program[frame->field != FIELD_NONE]);
     gl->BindVertexArray(water->surface.array);
     gl->DrawElements(GL_TRIANGLES, water->surface.index_count, GL_UNSIGNED_INT, NULL);
     return true;

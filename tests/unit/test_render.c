@@ -334,6 +334,25 @@ TEST(a_slice_is_drawn_as_a_thin_tank)
     render_destroy(render);
 }
 
+TEST(a_kept_stage_looks_like_one_drawn_anew)
+{
+    static Fixture fixture;
+    still_tank(&fixture);
+    ViewOptions first = small_view(), moved = small_view();
+    moved.camera.azimuth += 0.5;
+    Render *used = open_render(), *anew = open_render();
+    if (!used || !anew) return;
+    CHECK(draw(anew, &fixture.snapshot, &moved));
+    CHECK(draw(used, &fixture.snapshot, &first));
+    CHECK(draw(used, &fixture.snapshot, &moved));
+    CHECK(picture_hash(used) == picture_hash(anew)); // drawn for the moved camera
+    CHECK(draw(used, &fixture.snapshot, &moved));
+    CHECK(picture_hash(used) == picture_hash(anew)); // copied
+    fixture_free(&fixture);
+    render_destroy(used);
+    render_destroy(anew);
+}
+
 TEST(the_first_camera_sees_the_whole_scene)
 {
     Scene scene = {0};
