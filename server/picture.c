@@ -3,15 +3,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+
+#include "crew.h"
+#include "pace.h"
 
 enum { STILLS_MAX = 16 };
 enum { QUALITY_MOVING = 80, QUALITY_REST = 90, QUALITY_LAGGING = 60 };
 
-static const double REST_FACTOR = 3.0;  ///< wait this many times what a frame cost
-static const double SLOWEST_RATE = 3.5; ///< frames per second that a watcher gets at least
-static const double SMALL_MACHINE_RATE = 10.0, LARGE_MACHINE_RATE = 30.0;
-static const double PAUSED_RATE = 30.0;  ///< while the solver rests [1/s]
 static const double SNAPSHOT_WAIT = 0.5; ///< look at the world again after this long [s]
 
 struct Pictures {
@@ -35,8 +33,10 @@ struct Pictures {
     bool available;
     uint64_t drawn_version;
     uint32_t frame_number;
-    double next_at; ///< earliest begin of the next frame
-    bool unseen;    ///< the newest snapshot has not been drawn live
+    Crew crew; ///< the render thread and those its OpenGL started
+    int cores; ///< shared with the solver
+    Pace pace;
+    bool unseen; ///< the newest snapshot has not been drawn live
     bool snapshot_asked;
     double snapshot_asked_at;
     double snapshot_latency; ///< from asking to having, the last time [s]
@@ -69,18 +69,9 @@ static Picture *picture_create(const PictureHeader *header, const uint8_t *paylo
     return picture;
 }
 
-double picture_wait(double cost, double most)
+static bool solver_runs(const Pictures *pictures)
 {
-    double wait = REST_FACTOR * cost;
-    wait = mind(wait, 1 / SLOWEST_RATE - cost);
-    return maxd(maxd(wait, 1 / most - cost), 0);
-}
-
-/// Frames per second worth drawing: two cores are the solver's, many have room for both.
-static double rate_limit(const Pictures *pictures)
-{
-    if (session_status(pictures->session).state != RUN_RUNNING) return PAUSED_RATE;
-    return sysconf(_SC_NPROCESSORS_ONLN) > 4 ? LARGE_MACHINE_RATE : SMALL_MACHINE_RATE;
+    return session_status(pictures->session).state == RUN_RUNNING;
 }
 
 static void publish(Pictures *pictures, Picture *picture, double now)
@@ -99,7 +90,7 @@ static void publish(Pictures *pictures, Picture *picture, double now)
 
 static int choose_quality(const Pictures *pictures)
 {
-    if (session_status(pictures->session).state != RUN_RUNNING) return QUALITY_REST;
+    if (!solver_runs(pictures)) return QUALITY_REST;
     return atomic_load(&pictures->lagging) ? QUALITY_LAGGING : QUALITY_MOVING;
 }
 
@@ -136,22 +127,22 @@ static void draw_live(Pictures *pictures, const Snapshot *snapshot)
 {
     uint64_t version;
     ViewOptions view = current_view(pictures, &version);
-    double begin = clock_seconds();
+    double begin = clock_seconds(), used = crew_seconds(&pictures->crew);
     Error error = {0};
     Picture *picture =
         encode(pictures, snapshot, &view, PICTURE_LIVE, pictures->frame_number + 1, &error);
-    double end = clock_seconds();
-    pictures->next_at = end + picture_wait(end - begin, rate_limit(pictures));
+    pace_drawn(&pictures->pace, begin, crew_seconds(&pictures->crew) - used, pictures->cores,
+               solver_runs(pictures));
     pictures->drawn_version = version;
     if (!picture) {
         if (strcmp(pictures->complaint, error.message) != 0)
             fprintf(stderr, "fairlead: no picture: %s\n", error.message);
         snprintf(pictures->complaint, sizeof pictures->complaint, "%s", error.message);
-        pictures->next_at = end + 1;
+        pictures->pace.begun_at = clock_seconds() + 1; // not thirty times a second
         return;
     }
     pictures->frame_number++;
-    publish(pictures, picture, end);
+    publish(pictures, picture, clock_seconds());
 }
 
 static void draw_stills(Pictures *pictures, const Snapshot *snapshot)
@@ -207,14 +198,15 @@ static double serve_live(Pictures *pictures, const Snapshot *snapshot, double no
 {
     // the very first picture is drawn unasked: it warms the shaders up and waits for the first page
     if (!atomic_load(&pictures->wanted) && pictures->frame_number) return SNAPSHOT_WAIT;
-    double ask_at = pictures->next_at - pictures->snapshot_latency;
-    if (now < ask_at) return ask_at - now;
-    if (!pictures->unseen && is_stale(pictures, snapshot)) want_snapshot(pictures, now);
-    if (now < pictures->next_at) return pictures->next_at - now;
     uint64_t version;
     current_view(pictures, &version);
-    if (!snapshot || (!pictures->unseen && version == pictures->drawn_version))
-        return SNAPSHOT_WAIT / 4;
+    bool new_view = version != pictures->drawn_version;
+    double next_at = pace_next(&pictures->pace, solver_runs(pictures), new_view);
+    double ask_at = next_at - pictures->snapshot_latency;
+    if (now < ask_at) return ask_at - now;
+    if (!pictures->unseen && is_stale(pictures, snapshot)) want_snapshot(pictures, now);
+    if (now < next_at) return next_at - now;
+    if (!snapshot || (!pictures->unseen && !new_view)) return SNAPSHOT_WAIT / 4;
     pictures->unseen = false;
     draw_live(pictures, snapshot);
     return 0;
@@ -240,7 +232,11 @@ static void *pictures_main(void *argument)
 {
     Pictures *pictures = argument;
     Error error = {0};
+    pictures->cores = core_count();
+    crew_stand_back();
+    crew_begin(&pictures->crew);
     pictures->render = render_create(&error);
+    crew_end(&pictures->crew);
     pictures->available = pictures->render != NULL;
     snprintf(pictures->renderer, sizeof pictures->renderer, "%s%.240s",
              pictures->available ? "" : "none: ",

@@ -1,5 +1,5 @@
 /// The render thread: it alone owns the GL context. Turns the newest snapshot into the newest
-/// picture while somebody watches, and no more often than leaves the solver its cores.
+/// picture while somebody watches, as often as the solver can afford (pace.h).
 #ifndef FAIRLEAD_PICTURE_H
 #define FAIRLEAD_PICTURE_H
 
@@ -19,13 +19,6 @@ typedef struct Picture {
 
 Picture *picture_retain(Picture *picture);
 void picture_release(Picture *picture);
-
-/// How often to draw: after a frame that cost c seconds wait 3c, but keep 3.5 frames per second,
-/// and do not exceed `most`.
-/// @param cost  wall time of the last frame [s]
-/// @param most  frames per second
-/// @return wait until the next frame may begin [s]
-double picture_wait(double cost, double most);
 
 typedef struct Pictures Pictures;
 

@@ -1,9 +1,8 @@
-// The session and the pace of pictures, without sockets.
+// The session, without sockets.
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "commands.h"
-#include "picture.h"
 #include "session.h"
 #include "test.h"
 
@@ -40,14 +39,6 @@ static bool wait_reply(Session *session, SessionReply *reply)
         usleep(1000);
     }
     return false;
-}
-
-TEST(drawing_takes_a_quarter_of_the_time_within_its_limits)
-{
-    CHECK_NEAR(picture_wait(0.05, 10), 0.15, 1e-12);         // three times the cost
-    CHECK_NEAR(picture_wait(0.001, 10), 0.099, 1e-12);       // never above the rate asked for
-    CHECK_NEAR(picture_wait(0.2, 10), 1 / 3.5 - 0.2, 1e-12); // but 3.5 frames a second
-    CHECK(picture_wait(2, 10) == 0);
 }
 
 TEST(a_session_shows_its_first_moment_before_it_starts)
