@@ -74,7 +74,7 @@ void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], 
 double cpu_elevation(Backend *backend, double x, double y);
 double cpu_pressure(Backend *backend, Vec3 point);
 void cpu_statistics(const Backend *backend, BackendStatistics *statistics);
-/// D = excess less the hydrostatic one at the present height; zero for padding.
+/// D = diffusion (excess less the hydrostatic one at the present height); zero for padding.
 void cpu_update_dynamic(Backend *backend);
 
 #endif

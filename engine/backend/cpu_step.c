@@ -30,10 +30,11 @@ static void block_dynamic(const Backend *b, ParticleSet *f, int begin, int end)
     float tait = b->sweep.tait_b, unit = b->sweep.unit;
     float weight = (float)(b->setup.rest_density * b->setup.gravity);
     float surface = (float)(b->setup.level - b->grid.origin[2]);
+    float diffusion = b->sweep.constants.diffusion;
     for (int i = begin; i < end; i++) {
         float below = surface - unit * (float)f->position[2][i];
         float at_rest = tait_excess(weight * below, tait);
-        f->dynamic[i] = f->id[i] >= 0 ? f->field[EXCESS][i] - at_rest : 0.0f;
+        f->dynamic[i] = f->id[i] >= 0 ? diffusion * (f->field[EXCESS][i] - at_rest) : 0.0f;
     }
 }
 

@@ -1,227 +1,218 @@
-/// Neighbour sweeps over clusters of eight. One particle (scalars) meets eight neighbours (lanes);
-/// no mask is needed, because s = max(0, 1 - q/2) is zero beyond the support and in padding. Which
-/// clusters a particle visits, `prune` has written as bits into the list: by its distance to their
-/// boxes, with a margin, so that many sweeps can use them.
+/// Neighbour sweeps over clusters of eight. One particle meets eight neighbours, a lane each; no
+/// mask is needed, because closeness = max(0, 2h - r) is zero beyond the support and in padding.
+/// Which clusters a particle visits, near_prune has written as bits into the list: by its distance
+/// to their boxes, with a margin, so that many sweeps can use them.
 ///
 /// Compiled once per instruction level (sweep.h).
-#include "backend/sweep.h"
+#include "backend/lanes.h"
 
 #include <string.h>
 
+#include "backend/sweep.h"
 #include "physics/fluid.h"
 
 /// The clusters that a particle visits, one after the other. Reading a bit runs beside the
 /// arithmetic of the visit before; written out first, the visits cost a tenth more.
 typedef struct Visits {
-    const uint32_t *entry;
-    const uint8_t *bits;
-    int at, bytes; ///< byte after those in `word`
-    uint64_t word; ///< bits not yet visited
+    const uint32_t *entry; ///< that bit 0 of `word` stands for
+    uint64_t word;         ///< bits not yet visited
+    const uint8_t *bits;   ///< those in `word`
+    int bytes;             ///< from those in `word` to the end
 } Visits;
+
+FN uint64_t visits_word(const Visits *v)
+{
+    uint64_t word;
+    memcpy(&word, v->bits, sizeof word); // the list ends in spare bytes
+    return v->bytes < 8 ? word & ((UINT64_C(1) << 8 * v->bytes) - 1) : word;
+}
 
 FN Visits visits_of(const ClusterList *list, int i, int l)
 {
-    int bytes = ((int)list->count[i] + 7) / 8;
-    Visits v = {list->entry + list->begin[i], list->near + list->begin[i] + l * bytes, 0, bytes, 0};
+    Visits v;
+    v.bytes = ((int)list->count[i] + 7) / 8;
+    v.entry = list->entry + list->begin[i];
+    v.bits = list->near + list->begin[i] + l * v.bytes;
+    v.word = visits_word(&v);
     return v;
 }
 
 /// @param base  first slot of the next cluster   @return false when there is none
-FN bool visits_next(Visits *v, int *base)
+FN bool visits_next(Visits *v, size_t *base)
 {
     while (!v->word) {
-        int left = v->bytes - v->at;
-        if (left <= 0) return false;
-        memcpy(&v->word, v->bits + v->at, sizeof v->word); // the list ends in spare bytes
-        if (left < 8) v->word &= (UINT64_C(1) << 8 * left) - 1;
-        v->at += 8;
+        v->bytes -= 8;
+        if (v->bytes <= 0) return false;
+        v->bits += 8;
+        v->entry += 64;
+        v->word = visits_word(v);
     }
-    *base = (int)v->entry[8 * v->at - 64 + __builtin_ctzll(v->word)] * CLUSTER;
+    *base = (size_t)v->entry[__builtin_ctzll(v->word)] * CLUSTER;
     v->word &= v->word - 1;
     return true;
 }
 
-/// A particle as scalars.
+/// Arrays of a set, out of reach of stores to them.
+typedef struct Arrays {
+    const int32_t *x, *y, *z;
+    const float *u, *v, *w, *pressure, *dynamic, *excess;
+    float *rate[3];
+} Arrays;
+
+FN Arrays arrays_of(const ParticleSet *set)
+{
+    Arrays a = {set->position[0],       set->position[1],       set->position[2],
+                set->field[VELOCITY_X], set->field[VELOCITY_Y], set->field[VELOCITY_Z],
+                set->pressure,          set->dynamic,           set->field[EXCESS],
+                {set->rate[0], set->rate[1], set->rate[2]}};
+    return a;
+}
+
+/// One particle in all lanes.
 typedef struct Self {
-    int32_t x, y, z;
-    float u, v, w, pressure, dynamic;
+    IntLanes x, y, z;
+    Lanes u, v, w, pressure, dynamic;
 } Self;
 
-FN Self self_of(const ParticleSet *set, int i)
+FN Self self_of(const Arrays *a, int i)
 {
     Self self;
-    self.x = set->position[0][i];
-    self.y = set->position[1][i];
-    self.z = set->position[2][i];
-    self.u = set->field[VELOCITY_X][i];
-    self.v = set->field[VELOCITY_Y][i];
-    self.w = set->field[VELOCITY_Z][i];
-    self.pressure = set->pressure[i];
-    self.dynamic = set->dynamic[i];
+    self.x = lanes_all_int(a->x[i]);
+    self.y = lanes_all_int(a->y[i]);
+    self.z = lanes_all_int(a->z[i]);
+    self.u = lanes_all(a->u[i]);
+    self.v = lanes_all(a->v[i]);
+    self.w = lanes_all(a->w[i]);
+    self.pressure = lanes_all(a->pressure[i]);
+    self.dynamic = lanes_all(a->dynamic[i]);
     return self;
 }
 
-/// Eight lanes of sums.
-typedef struct Lanes {
-    float x[CLUSTER], y[CLUSTER], z[CLUSTER];
-} Lanes;
+/// x_ik of one particle and eight others [unit].
+typedef struct Offset {
+    Lanes x, y, z;
+} Offset;
 
-FN float lanes_total(const float lane[CLUSTER])
+FN Offset offset_to(const Self *self, const Arrays *other, size_t base)
 {
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
-           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+    Offset d;
+    d.x = lanes_from_int(self->x - lanes_load_int(other->x + base));
+    d.y = lanes_from_int(self->y - lanes_load_int(other->y + base));
+    d.z = lanes_from_int(self->z - lanes_load_int(other->z + base));
+    return d;
+}
+
+FN Lanes offset_square(Offset d) { return d.x * d.x + d.y * d.y + d.z * d.z; }
+
+/// v_ik . x_ik
+FN Lanes approach_of(const Self *self, const Arrays *other, size_t base, Offset d)
+{
+    return (self->u - lanes_load(other->u + base)) * d.x +
+           (self->v - lanes_load(other->v + base)) * d.y +
+           (self->w - lanes_load(other->w + base)) * d.z;
 }
 
 /// Momentum: one particle and the eight at `base`. `react` lets the eight feel it too.
-FN void visit_momentum(const Self *self, const ParticleSet *other, int base, const SweepConstants c,
-                       bool viscous, bool react, Lanes *sum)
+FN void visit_momentum(const Self *self, const Arrays *other, size_t base, const SweepConstants c,
+                       bool viscous, bool react, Lanes sum[3])
 {
-    const int32_t *RESTRICT px = other->position[0] + base,
-                            *RESTRICT py = other->position[1] + base;
-    const int32_t *RESTRICT pz = other->position[2] + base;
-    const float *RESTRICT vu = other->field[VELOCITY_X] + base;
-    const float *RESTRICT vv = other->field[VELOCITY_Y] + base;
-    const float *RESTRICT vw = other->field[VELOCITY_Z] + base;
-    const float *RESTRICT pressure = other->pressure + base;
-    float *RESTRICT rx = other->rate[0] + base, *RESTRICT ry = other->rate[1] + base;
-    float *RESTRICT rz = other->rate[2] + base;
-#pragma omp simd
-    for (int l = 0; l < CLUSTER; l++) {
-        float dx = (float)(self->x - px[l]), dy = (float)(self->y - py[l]);
-        float dz = (float)(self->z - pz[l]);
-        float r2 = dx * dx + dy * dy + dz * dz;
-        float s = pair_closeness(r2, c.inverse_support);
-        float f;
-        if (viscous) {
-            float vx = (self->u - vu[l]) * dx + (self->v - vv[l]) * dy + (self->w - vw[l]) * dz;
-            f = pair_force(s, r2, self->pressure + pressure[l], vx, c);
-        } else {
-            f = kernel_slope(s) * (self->pressure + pressure[l]);
-        }
-        float fx = f * dx, fy = f * dy, fz = f * dz;
-        sum->x[l] += fx;
-        sum->y[l] += fy;
-        sum->z[l] += fz;
-        if (react) {
-            rx[l] -= fx;
-            ry[l] -= fy;
-            rz[l] -= fz;
-        }
-    }
+    Offset d = offset_to(self, other, base);
+    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.support);
+    Lanes force, pressures = self->pressure + lanes_load(other->pressure + base);
+    if (viscous)
+        force = pair_force(closeness, r2, pressures, approach_of(self, other, base, d), c);
+    else
+        force = kernel_slope(closeness) * pressures;
+    sum[0] += force * d.x;
+    sum[1] += force * d.y;
+    sum[2] += force * d.z;
+    if (!react) return;
+    lanes_store(other->rate[0] + base, lanes_load(other->rate[0] + base) - force * d.x);
+    lanes_store(other->rate[1] + base, lanes_load(other->rate[1] + base) - force * d.y);
+    lanes_store(other->rate[2] + base, lanes_load(other->rate[2] + base) - force * d.z);
 }
 
 /// Continuity: one particle and the eight at `base`.
-FN void visit_density(const Self *self, const ParticleSet *other, int base, const SweepConstants c,
-                      bool diffusive, bool react, float sum[CLUSTER])
+FN void visit_density(const Self *self, const Arrays *other, size_t base, const SweepConstants c,
+                      bool diffusive, bool react, Lanes *sum)
 {
-    const int32_t *RESTRICT px = other->position[0] + base,
-                            *RESTRICT py = other->position[1] + base;
-    const int32_t *RESTRICT pz = other->position[2] + base;
-    const float *RESTRICT vu = other->field[VELOCITY_X] + base;
-    const float *RESTRICT vv = other->field[VELOCITY_Y] + base;
-    const float *RESTRICT vw = other->field[VELOCITY_Z] + base;
-    const float *RESTRICT dynamic = other->dynamic + base;
-    float *RESTRICT rate = other->rate[0] + base;
-#pragma omp simd
-    for (int l = 0; l < CLUSTER; l++) {
-        float dx = (float)(self->x - px[l]), dy = (float)(self->y - py[l]);
-        float dz = (float)(self->z - pz[l]);
-        float s = pair_closeness(dx * dx + dy * dy + dz * dz, c.inverse_support);
-        float vx = (self->u - vu[l]) * dx + (self->v - vv[l]) * dy + (self->w - vw[l]) * dz;
-        float slope = kernel_slope(s);
-        float squeeze = -slope * vx;
-        float diffused = diffusive ? slope * (c.diffusion * (dynamic[l] - self->dynamic)) : 0.0f;
-        sum[l] += squeeze + diffused;
-        if (react) rate[l] += squeeze - diffused;
-    }
+    Offset d = offset_to(self, other, base);
+    Lanes slope = kernel_slope(pair_closeness(offset_square(d), c.support));
+    Lanes stretch = slope * approach_of(self, other, base, d), diffused = lanes_all(0);
+    if (diffusive) diffused = slope * (lanes_load(other->dynamic + base) - self->dynamic);
+    *sum += diffused - stretch;
+    if (react)
+        lanes_store(other->rate[0] + base,
+                    lanes_load(other->rate[0] + base) - (diffused + stretch));
 }
 
-/// Push of wall clusters on one particle.
-static void push_of_walls(const Self *self, const ParticleSet *walls, Visits visits,
-                          const SweepConstants c, Lanes *total)
+/// Push of the fluid's pairs and of its own cluster on particle l of cluster i.
+FN void push_of_fluid(const Sweep *sweep, const Arrays *fluid, int i, int l, bool viscous,
+                      Lanes sum[3])
 {
-    const Self own = *self;
-    const ParticleSet set = *walls;
-    Lanes sum = {{0}, {0}, {0}};
-    for (int base; visits_next(&visits, &base);)
-        visit_momentum(&own, &set, base, c, false, false, &sum);
-    for (int l = 0; l < CLUSTER; l++) {
-        total->x[l] += sum.x[l];
-        total->y[l] += sum.y[l];
-        total->z[l] += sum.z[l];
-    }
+    const SweepConstants c = sweep->constants;
+    const Self self = self_of(fluid, i * CLUSTER + l);
+    Lanes total[3] = {lanes_all(0), lanes_all(0), lanes_all(0)};
+    Visits visits = visits_of(sweep->fluid_fluid, i, l);
+    for (size_t base; visits_next(&visits, &base);)
+        visit_momentum(&self, fluid, base, c, viscous, true, total);
+    visit_momentum(&self, fluid, (size_t)i * CLUSTER, c, viscous, false, total);
+    memcpy(sum, total, sizeof total);
 }
 
-/// Walls' part in the continuity of one particle.
-static void squeeze_of_walls(const Self *self, const ParticleSet *walls, Visits visits,
-                             const SweepConstants c, float total[CLUSTER])
+/// Push of wall clusters on one particle: no viscosity.
+FN void push_of_walls(const Sweep *sweep, const Arrays *fluid, int set, int i, int l, Lanes sum[3])
 {
-    const Self own = *self;
-    const ParticleSet set = *walls;
-    float sum[CLUSTER] = {0};
-    for (int base; visits_next(&visits, &base);)
-        visit_density(&own, &set, base, c, false, false, sum);
-    for (int l = 0; l < CLUSTER; l++)
-        total[l] += sum[l];
+    const SweepConstants c = sweep->constants;
+    const Arrays walls = arrays_of(sweep->walls[set]);
+    const Self self = self_of(fluid, i * CLUSTER + l);
+    Visits visits = visits_of(sweep->fluid_wall[set], i, l);
+    for (size_t base; visits_next(&visits, &base);)
+        visit_momentum(&self, &walls, base, c, false, false, sum);
+}
+
+FN bool has_walls(const Sweep *sweep, int set, int i)
+{
+    return sweep->walls[set]->count && sweep->fluid_wall[set]->count[i];
 }
 
 FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous)
 {
-    ParticleSet *fluid = sweep->fluid;
-    const SweepConstants c = sweep->constants;
-    Lanes sums[CLUSTER] = {0};
+    const Arrays fluid = arrays_of(sweep->fluid);
+    const int32_t *id = sweep->fluid->id + i * CLUSTER;
     for (int l = 0; l < CLUSTER; l++) {
-        if (fluid->id[i * CLUSTER + l] < 0) continue;
-        const Self self = self_of(fluid, i * CLUSTER + l);
-        Visits visits = visits_of(sweep->fluid_fluid, i, l);
-        Lanes sum = {0};
-        for (int base; visits_next(&visits, &base);)
-            visit_momentum(&self, fluid, base, c, viscous, true, &sum);
-        visit_momentum(&self, fluid, i * CLUSTER, c, viscous, false, &sum);
-        sums[l] = sum;
-    }
-    for (int set = 0; set < 2; set++) {
-        if (!sweep->walls[set]->count || !sweep->fluid_wall[set]->count[i]) continue;
-        for (int l = 0; l < CLUSTER; l++) {
-            if (fluid->id[i * CLUSTER + l] < 0) continue;
-            const Self self = self_of(fluid, i * CLUSTER + l);
-            push_of_walls(&self, sweep->walls[set], visits_of(sweep->fluid_wall[set], i, l), c,
-                          &sums[l]);
-        }
-    }
-    for (int l = 0; l < CLUSTER; l++) {
-        fluid->rate[0][i * CLUSTER + l] += lanes_total(sums[l].x);
-        fluid->rate[1][i * CLUSTER + l] += lanes_total(sums[l].y);
-        fluid->rate[2][i * CLUSTER + l] += lanes_total(sums[l].z);
+        if (id[l] < 0) continue;
+        Lanes sum[3];
+        push_of_fluid(sweep, &fluid, i, l, viscous, sum);
+        for (int set = 0; set < 2; set++)
+            if (has_walls(sweep, set, i)) push_of_walls(sweep, &fluid, set, i, l, sum);
+        for (int a = 0; a < 3; a++)
+            fluid.rate[a][i * CLUSTER + l] += lanes_total(sum[a]);
     }
 }
 
 FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive)
 {
-    ParticleSet *fluid = sweep->fluid;
     const SweepConstants c = sweep->constants;
-    float sums[CLUSTER][CLUSTER] = {{0}};
+    const Arrays fluid = arrays_of(sweep->fluid);
+    const int32_t *id = sweep->fluid->id + i * CLUSTER;
     for (int l = 0; l < CLUSTER; l++) {
-        if (fluid->id[i * CLUSTER + l] < 0) continue;
-        const Self self = self_of(fluid, i * CLUSTER + l);
+        if (id[l] < 0) continue;
+        const Self self = self_of(&fluid, i * CLUSTER + l);
+        Lanes sum = lanes_all(0);
         Visits visits = visits_of(sweep->fluid_fluid, i, l);
-        float sum[CLUSTER] = {0};
-        for (int base; visits_next(&visits, &base);)
-            visit_density(&self, fluid, base, c, diffusive, true, sum);
-        visit_density(&self, fluid, i * CLUSTER, c, diffusive, false, sum);
-        memcpy(sums[l], sum, sizeof sum);
-    }
-    for (int set = 0; set < 2; set++) {
-        if (!sweep->walls[set]->count || !sweep->fluid_wall[set]->count[i]) continue;
-        for (int l = 0; l < CLUSTER; l++) {
-            if (fluid->id[i * CLUSTER + l] < 0) continue;
-            const Self self = self_of(fluid, i * CLUSTER + l);
-            squeeze_of_walls(&self, sweep->walls[set], visits_of(sweep->fluid_wall[set], i, l), c,
-                             sums[l]);
+        for (size_t base; visits_next(&visits, &base);)
+            visit_density(&self, &fluid, base, c, diffusive, true, &sum);
+        visit_density(&self, &fluid, (size_t)i * CLUSTER, c, diffusive, false, &sum);
+        for (int set = 0; set < 2; set++) {
+            if (!has_walls(sweep, set, i)) continue;
+            const Arrays walls = arrays_of(sweep->walls[set]);
+            visits = visits_of(sweep->fluid_wall[set], i, l);
+            for (size_t base; visits_next(&visits, &base);)
+                visit_density(&self, &walls, base, c, false, false, &sum);
         }
+        fluid.rate[0][i * CLUSTER + l] += lanes_total(sum);
     }
-    for (int l = 0; l < CLUSTER; l++)
-        fluid->rate[0][i * CLUSTER + l] += lanes_total(sums[l]);
 }
 
 static void acceleration_plain(const Sweep *sweep, int begin, int end)
@@ -245,53 +236,33 @@ static void density_diffusive(const Sweep *sweep, int begin, int end)
         density_of_cluster(sweep, i, true);
 }
 
-/// Sums of the dummy extrapolation.
-typedef struct Shepard {
-    float weight[CLUSTER], pressure[CLUSTER];
-} Shepard;
-
-/// @param pull  g - a_w of the dummy times unit and rho0: (pull . x) (1 + excess) is the pressure
-///              that a column between fluid and dummy adds [Pa/unit]; fixed dummies feel only gravity
-FN void visit_extrapolation(const Self *self, const ParticleSet *fluid, int base,
-                            const Sweep *sweep, const float pull[3], bool moving, Shepard *sum)
-{
-    const int32_t *RESTRICT px = fluid->position[0] + base,
-                            *RESTRICT py = fluid->position[1] + base;
-    const int32_t *RESTRICT pz = fluid->position[2] + base;
-    const float *RESTRICT excess = fluid->field[EXCESS] + base;
-#pragma omp simd
-    for (int l = 0; l < CLUSTER; l++) {
-        float dx = (float)(self->x - px[l]), dy = (float)(self->y - py[l]);
-        float dz = (float)(self->z - pz[l]);
-        float s = pair_closeness(dx * dx + dy * dy + dz * dz, sweep->constants.inverse_support);
-        float weight = kernel_value(s);
-        float column = moving ? pull[0] * dx + pull[1] * dy + pull[2] * dz : pull[2] * dz;
-        sum->weight[l] += weight;
-        sum->pressure[l] += weight * (tait_pressure(excess[l], sweep->tait_b) +
-                                      column * (1.0f + excess[l]));
-    }
-}
-
 /// Pressure of one dummy particle,
 /// p_w = (sum p_f W + (g - a_w) . sum rho_f x_wf W) / sum W, never below zero (no suction at
-/// walls). Source: Adami, Hu & Adams (2012), doi:10.1016/j.jcp.2012.05.005, eq. 27.
-FN float extrapolated_pressure(const Sweep *sweep, const ClusterList *list, int set, int i, int l)
+/// walls). Fixed dummies feel only gravity.
+/// Source: Adami, Hu & Adams (2012), doi:10.1016/j.jcp.2012.05.005, eq. 27.
+FN float extrapolated_pressure(const Sweep *sweep, int set, int i, int l)
 {
     const ParticleSet *wall = sweep->walls[set];
-    const Self self = self_of(wall, i * CLUSTER + l);
-    float pull[3], column = sweep->rest_density * sweep->unit;
+    const Arrays walls = arrays_of(wall), fluid = arrays_of(sweep->fluid);
+    const Self self = self_of(&walls, i * CLUSTER + l);
+    float pull[3], column = sweep->rest_density * sweep->unit; // of water, per unit of length
     for (int a = 0; a < 3; a++) {
         float acceleration = set == 1 ? wall->field[WALL_ACCELERATION_X + a][i * CLUSTER + l] : 0;
         pull[a] = column * (sweep->gravity[a] - acceleration);
     }
-    Visits visits = visits_of(list, i, l);
-    Shepard sum = {{0}, {0}};
-    for (int base; visits_next(&visits, &base);)
-        visit_extrapolation(&self, sweep->fluid, base, sweep, pull, set == 1, &sum);
-    float weight = lanes_total(sum.weight);
-    if (weight < 1e-6f) return 0.0f;
-    float p = lanes_total(sum.pressure) / weight;
-    return p > 0.0f ? p : 0.0f;
+    Lanes weights = lanes_all(0), pressures = lanes_all(0);
+    Visits visits = visits_of(sweep->wall_fluid[set], i, l);
+    for (size_t base; visits_next(&visits, &base);) {
+        Offset d = offset_to(&self, &fluid, base);
+        Lanes closeness = pair_closeness(offset_square(d), sweep->constants.support);
+        Lanes weight = kernel_value(closeness * (1.0f / sweep->constants.support));
+        Lanes excess = lanes_load(fluid.excess + base), depth = pull[2] * d.z;
+        if (set == 1) depth += pull[0] * d.x + pull[1] * d.y;
+        weights += weight;
+        pressures += weight * (tait_pressure(excess, sweep->tait_b) + depth * (1.0f + excess));
+    }
+    float weight = lanes_total(weights), p = lanes_total(pressures);
+    return weight < 1e-6f || p < 0.0f ? 0.0f : p / weight;
 }
 
 FN void extrapolate_set(const Sweep *sweep, int set, int begin, int end)
@@ -302,7 +273,7 @@ FN void extrapolate_set(const Sweep *sweep, int set, int begin, int end)
         for (int l = 0; l < CLUSTER; l++) {
             float p = 0;
             if (list->count[i] && wall->id[i * CLUSTER + l] >= 0)
-                p = extrapolated_pressure(sweep, list, set, i, l);
+                p = extrapolated_pressure(sweep, set, i, l);
             float rho = sweep->rest_density * (1.0f + tait_excess(p, sweep->tait_b));
             wall->pressure[i * CLUSTER + l] = p / (rho * rho);
         }
@@ -321,20 +292,18 @@ static void loads(const Sweep *sweep, int begin, int end)
     ParticleSet *wall = sweep->walls[1];
     const ClusterList *list = sweep->wall_fluid[1];
     const SweepConstants c = sweep->constants;
-    for (int i = begin; i < end; i++) {
-        for (int l = 0; l < CLUSTER; l++) {
-            int slot = i * CLUSTER + l, id = wall->id[slot];
-            Lanes sum = {0};
-            if (id >= 0 && sweep->moving_owner[id] >= 0 && list->count[i]) {
-                const Self self = self_of(wall, slot);
-                Visits visits = visits_of(list, i, l);
-                for (int base; visits_next(&visits, &base);)
-                    visit_momentum(&self, sweep->fluid, base, c, false, false, &sum);
-            }
-            wall->rate[0][slot] = lanes_total(sum.x);
-            wall->rate[1][slot] = lanes_total(sum.y);
-            wall->rate[2][slot] = lanes_total(sum.z);
+    const Arrays walls = arrays_of(wall), fluid = arrays_of(sweep->fluid);
+    for (int slot = begin * CLUSTER; slot < end * CLUSTER; slot++) {
+        int i = slot / CLUSTER, id = wall->id[slot];
+        Lanes sum[3] = {lanes_all(0), lanes_all(0), lanes_all(0)};
+        if (id >= 0 && sweep->moving_owner[id] >= 0 && list->count[i]) {
+            const Self self = self_of(&walls, slot);
+            Visits visits = visits_of(list, i, slot % CLUSTER);
+            for (size_t base; visits_next(&visits, &base);)
+                visit_momentum(&self, &fluid, base, c, false, false, sum);
         }
+        for (int a = 0; a < 3; a++)
+            wall->rate[a][slot] = lanes_total(sum[a]);
     }
 }
 

@@ -53,7 +53,7 @@ typedef struct ParticleSet {
     float *field[FIELDS_MAX]; ///< velocity [m/s]; fluid: rho/rho0 - 1; moving: acceleration [m/s^2]
     int32_t *id;              ///< index at creation, -1 in padding
     float *pressure;          ///< P = p/rho^2 [Pa m^6/kg^2]; 0 in padding
-    float *dynamic;           ///< fluid: density excess less its hydrostatic part [-]
+    float *dynamic;           ///< fluid: D = diffusion * (density excess less its hydrostatic part)
     float *rate[3];           ///< sums of the sweeps; fixed: none
     int32_t *target[3];       ///< moving: places at the end of the step [unit]
     Boxes boxes;

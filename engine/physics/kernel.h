@@ -10,7 +10,7 @@
 #ifndef FAIRLEAD_PHYSICS_KERNEL_H
 #define FAIRLEAD_PHYSICS_KERNEL_H
 
-#include "base/portable.h"
+#include "lane.h"
 
 /// alpha_D [1/m^3] in 3-D, [1/m^2] in 2-D. @param h  smoothing length [m]
 FN double kernel_constant(double h, int dimensions)
@@ -19,9 +19,9 @@ FN double kernel_constant(double h, int dimensions)
 }
 
 /// W / alpha_D at s = max(0, 1 - q/2) [-].
-FN float kernel_value(float s) { return s * s * s * s * (5.0f - 4.0f * s); }
+FN LANE kernel_value(LANE s) { return s * s * s * s * (5.0f - 4.0f * s); }
 
 /// -(h^2 / 5 alpha_D) grad_i W / x_ik [-]: what multiplies x_ik.
-FN float kernel_slope(float s) { return s * s * s; }
+FN LANE kernel_slope(LANE s) { return s * s * s; }
 
 #endif
