@@ -1,5 +1,6 @@
 /// Who is near whom, by boxes: entries of the lists and the visit bits of their particles. Compiled
 /// once per instruction level (sweep.h).
+#include "backend/lanes.h"
 #include "backend/sweep.h"
 
 enum { CHUNK = 256 };
@@ -42,66 +43,52 @@ int AT_LEVEL(near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, in
     return count;
 }
 
-/// Boxes of one cluster's neighbours, side by side for the vectorised test.
-typedef struct Neighbourhood {
-    int count;
-    int32_t min[3][ENTRIES_MAX], max[3][ENTRIES_MAX];
-} Neighbourhood;
+/// A cluster's particles, a lane each.
+typedef struct Points {
+    IntLanes x, y, z;
+} Points;
 
-static void gather_boxes(Neighbourhood *n, const ClusterList *list, int i, const Boxes *boxes)
+/// How far each particle lies outside of a box along one axis; 0 inside [unit].
+FN Lanes outside(IntLanes x, int32_t min, int32_t max)
 {
-    const uint32_t *entry = list->entry + list->begin[i];
-    int count = (int)list->count[i];
-    n->count = count;
-    for (int k = 0; k < n->count; k++) {
+    IntLanes below = min - x, above = x - max;
+    return lanes_from_int(lanes_max_int(lanes_max_int(below, above), lanes_all_int(0)));
+}
+
+/// Which of the 32 entries each particle visits: a bit each.
+FN IntLanes visit_bits(const Points *p, const Boxes *boxes, const uint32_t *entry, int count,
+                       float reach_squared)
+{
+    IntLanes bits = lanes_all_int(0);
+    for (int k = 0; k < count; k++) {
         uint32_t c = entry[k];
-        for (int a = 0; a < 3; a++) {
-            n->min[a][k] = boxes->min[a][c];
-            n->max[a][k] = boxes->max[a][c];
-        }
+        Lanes gx = outside(p->x, boxes->min[0][c], boxes->max[0][c]);
+        Lanes gy = outside(p->y, boxes->min[1][c], boxes->max[1][c]);
+        Lanes gz = outside(p->z, boxes->min[2][c], boxes->max[2][c]);
+        IntLanes near = gx * gx + gy * gy + gz * gz < reach_squared;
+        bits |= near & (int32_t)(UINT32_C(1) << k);
     }
+    return bits;
 }
 
-/// Visit bits of one particle: clusters whose box lies within the reach of the point.
-static void write_near(const Neighbourhood *n, int32_t x, int32_t y, int32_t z, float reach_squared,
-                       uint8_t *bits)
+void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
+                          int end, float reach_squared)
 {
-    int32_t near[ENTRIES_MAX];
-#pragma omp simd
-    for (int k = 0; k < n->count; k++) {
-        int32_t bx = n->min[0][k] - x, ax = x - n->max[0][k];
-        int32_t by = n->min[1][k] - y, ay = y - n->max[1][k];
-        int32_t bz = n->min[2][k] - z, az = z - n->max[2][k];
-        bx = bx > ax ? bx : ax;
-        by = by > ay ? by : ay;
-        bz = bz > az ? bz : az;
-        float gx = (float)(bx > 0 ? bx : 0), gy = (float)(by > 0 ? by : 0);
-        float gz = (float)(bz > 0 ? bz : 0);
-        near[k] = gx * gx + gy * gy + gz * gz < reach_squared ? 1 << (k & 7) : 0;
-    }
-    int bytes = (n->count + 7) / 8;
-    for (int k = n->count; k < 8 * bytes; k++)
-        near[k] = 0;
-    for (int byte = 0; byte < bytes; byte++) {
-        int32_t sum = 0;
-        for (int k = 0; k < 8; k++)
-            sum += near[8 * byte + k];
-        bits[byte] = (uint8_t)sum;
-    }
-}
-
-void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin, int end,
-                  float reach_squared)
-{
-    Neighbourhood n;
     for (int i = begin; i < end; i++) {
-        if (!list->count[i]) continue;
-        gather_boxes(&n, list, i, &b->boxes);
-        int bytes = (n.count + 7) / 8;
-        for (int l = 0; l < CLUSTER; l++) {
-            int slot = i * CLUSTER + l;
-            write_near(&n, a->position[0][slot], a->position[1][slot], a->position[2][slot],
-                       reach_squared, list->near + list->begin[i] + l * bytes);
+        const uint32_t *entry = list->entry + list->begin[i];
+        int count = (int)list->count[i], bytes = (count + 7) / 8;
+        uint8_t *bits = list->near + list->begin[i];
+        const Points p = {lanes_load_int(a->position[0] + i * CLUSTER),
+                          lanes_load_int(a->position[1] + i * CLUSTER),
+                          lanes_load_int(a->position[2] + i * CLUSTER)};
+        for (int k = 0; k < count; k += 32) {
+            int entries = count - k < 32 ? count - k : 32;
+            IntLanes word = visit_bits(&p, &b->boxes, entry + k, entries, reach_squared);
+            size_t size = (size_t)(entries + 7) / 8;
+            for (int l = 0; l < CLUSTER; l++) {
+                int32_t own = word[l];
+                memcpy(bits + l * bytes + k / 8, &own, size); // little-endian, checked in lanes.h
+            }
         }
     }
 }

@@ -117,7 +117,7 @@ bool rows_lists_hold(const Rows *rows, const Grid *grid, double dt, double skin)
 static float best_margin(const Rows *rows, int row, double dt, double skin)
 {
     float path = rows->speed[row] * (float)dt;
-    float margin = 0.6f * sqrtf(path * rows->spacing);
+    float margin = 0.35f * sqrtf(path * rows->spacing);
     float left = (float)skin - rows->total[row]; // the lists know no farther neighbours
     margin = margin < left ? margin : left;
     return maxf(margin, rows->least_margin);

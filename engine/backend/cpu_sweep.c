@@ -250,19 +250,22 @@ FN float extrapolated_pressure(const Sweep *sweep, int set, int i, int l)
         float acceleration = set == 1 ? wall->field[WALL_ACCELERATION_X + a][i * CLUSTER + l] : 0;
         pull[a] = column * (sweep->gravity[a] - acceleration);
     }
+    const float rho0_squared = sweep->rest_density * sweep->rest_density;
     Lanes weights = lanes_all(0), pressures = lanes_all(0);
     Visits visits = visits_of(sweep->wall_fluid[set], i, l);
     for (size_t base; visits_next(&visits, &base);) {
         Offset d = offset_to(&self, &fluid, base);
         Lanes closeness = pair_closeness(offset_square(d), sweep->constants.support);
         Lanes weight = kernel_value(closeness * (1.0f / sweep->constants.support));
-        Lanes excess = lanes_load(fluid.excess + base), depth = pull[2] * d.z;
+        Lanes density = 1.0f + lanes_load(fluid.excess + base), depth = pull[2] * d.z;
         if (set == 1) depth += pull[0] * d.x + pull[1] * d.y;
         weights += weight;
-        pressures += weight * (tait_pressure(excess, sweep->tait_b) + depth * (1.0f + excess));
+        // p = P rho^2
+        Lanes p = lanes_load(fluid.pressure + base) * (rho0_squared * density);
+        pressures += weight * density * (p + depth);
     }
-    float weight = lanes_total(weights), p = lanes_total(pressures);
-    return weight < 1e-6f || p < 0.0f ? 0.0f : p / weight;
+    float weight = lanes_total(weights), sum = lanes_total(pressures);
+    return weight < 1e-6f || sum < 0.0f ? 0.0f : sum / weight;
 }
 
 FN void extrapolate_set(const Sweep *sweep, int set, int begin, int end)

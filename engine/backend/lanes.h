@@ -9,10 +9,14 @@
 
 #include "base/portable.h"
 
+#if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
+#error "visit bits are read by the word: little-endian machines only"
+#endif
+
 typedef float Lanes __attribute__((vector_size(32)));
 typedef int32_t IntLanes __attribute__((vector_size(32)));
 
-// What physics/ computes with in this file (base/portable.h).
+// What physics/ computes with in this file (physics/lane.h).
 #define LANE Lanes
 
 FN Lanes lanes_load(const float *from)
@@ -40,6 +44,12 @@ FN IntLanes lanes_all_int(int32_t x)
 {
     IntLanes v = {x, x, x, x, x, x, x, x};
     return v;
+}
+FN IntLanes lanes_max_int(IntLanes a, IntLanes b)
+{
+    for (int l = 0; l < 8; l++)
+        a[l] = a[l] > b[l] ? a[l] : b[l];
+    return a;
 }
 FN Lanes lanes_from_int(IntLanes v) { return __builtin_convertvector(v, Lanes); }
 
