@@ -188,7 +188,8 @@ static bool rebuild_lists(Backend *b)
 
 static void prune_row(Backend *b, int row)
 {
-    double reach = 2 * b->setup.smoothing_length + rows_pruned(&b->rows, row, b->last_step, b->skin);
+    double reach =
+        2 * b->setup.smoothing_length + rows_pruned(&b->rows, row, b->last_step, b->skin);
     reach /= b->grid.unit;
     float squared = (float)(reach * reach);
     int fluid = b->fluid.row_begin[row], fluid_end = b->fluid.row_begin[row + 1];
@@ -228,8 +229,7 @@ bool cpu_neighbours(Backend *b, Error *error)
         b->sorted = rebuild_lists(b);
         rows_sorted(&b->rows, &b->grid);
         b->sorts++;
-        if (!b->sorted)
-            return error_set(error, ERROR_SYSTEM, "memory: neighbour lists do not fit");
+        if (!b->sorted) return error_set(error, ERROR_SYSTEM, "memory: neighbour lists do not fit");
     }
     cpu_prune(b);
     return true;

@@ -61,10 +61,11 @@ typedef struct Arrays {
 
 FN Arrays arrays_of(const ParticleSet *set)
 {
-    Arrays a = {set->position[0],       set->position[1],       set->position[2],
-                set->field[VELOCITY_X], set->field[VELOCITY_Y], set->field[VELOCITY_Z],
-                set->pressure,          set->dynamic,           set->field[EXCESS],
-                {set->rate[0], set->rate[1], set->rate[2]}};
+    Arrays a = {set->position[0],       set->position[1],
+                set->position[2],       set->field[VELOCITY_X],
+                set->field[VELOCITY_Y], set->field[VELOCITY_Z],
+                set->pressure,          set->dynamic,
+                set->field[EXCESS],     {set->rate[0], set->rate[1], set->rate[2]}};
     return a;
 }
 

@@ -75,10 +75,10 @@ typedef struct SortScratch {
 /// that particle l visits entry k. The entries hold until particles have moved by the skin, the
 /// bits (a byte an entry, all eight particles together) until they have moved by a smaller margin.
 typedef struct ClusterList {
-    uint32_t *begin;       ///< [cluster capacity] first entry, a multiple of 8
-    uint32_t *count;       ///< [cluster capacity]
-    uint32_t *entry;       ///< malloc'ed: grows, rarely, when a sort finds more neighbours
-    uint8_t *near;         ///< [entry_capacity] visit bits
+    uint32_t *begin; ///< [cluster capacity] first entry, a multiple of 8
+    uint32_t *count; ///< [cluster capacity]
+    uint32_t *entry; ///< malloc'ed: grows, rarely, when a sort finds more neighbours
+    uint8_t *near;   ///< [entry_capacity] visit bits
     size_t entry_count, entry_capacity;
 } ClusterList;
 

@@ -46,10 +46,7 @@ FN SweepConstants sweep_constants(double h, int dimensions, double u, double mas
 }
 
 /// max(0, 2h - r) from a squared distance, both in units.
-FN LANE pair_closeness(LANE r2, float support)
-{
-    return lane_above_zero(support - lane_sqrt(r2));
-}
+FN LANE pair_closeness(LANE r2, float support) { return lane_above_zero(support - lane_sqrt(r2)); }
 
 /// Factor of x_ik in i's acceleration (and of -x_ik in k's).
 /// @param pressures  P_i + P_k   @param vx  v_ik . x_ik
