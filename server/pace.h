@@ -14,8 +14,8 @@
 
 #include <stdbool.h>
 
-/// What the pictures may take of all cores' time [-]. It leaves two cores 0.92 of their bare speed, a
-/// client on the same cores included (docs/performance.md).
+/// What the pictures may take of all cores' time [-]. It leaves two cores 0.92 of their bare speed,
+/// a client on the same cores included (docs/performance.md).
 #define PACE_SHARE 0.06
 
 /// One watcher's or many watchers': pictures are drawn once for all.
