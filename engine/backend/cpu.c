@@ -140,7 +140,7 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     b->first_step = true;
     set_sort(&b->fixed, &b->grid, &b->scratch);
     set_boxes(&b->fixed, 0, b->fixed.cluster_count);
-    cpu_update_pressure(b);
+    b->table->update_pressure(b);
     *backend = b;
     return true;
 }
@@ -222,7 +222,7 @@ bool cpu_neighbours(Backend *b, Error *error)
 {
     if (!b->sorted || !rows_lists_hold(&b->rows, &b->grid, b->last_step, b->skin)) {
         set_sort(&b->fluid, &b->grid, &b->scratch);
-        cpu_update_pressure(b);
+        b->table->update_pressure(b);
         if (b->moving.count) set_sort(&b->moving, &b->grid, &b->scratch);
         b->boxes_fresh = false;
         cpu_refresh_boxes(b);
@@ -360,7 +360,7 @@ static void cpu_restore(Backend *b, const void *from)
     size_t moving = set_transfer(&b->moving, NULL, (const char *)from + fluid);
     memcpy(&b->first_step, (const char *)from + fluid + moving, sizeof(bool));
     b->sorted = b->boxes_fresh = false;
-    cpu_update_pressure(b);
+    b->table->update_pressure(b);
 }
 
 static const double *cpu_clocks(const Backend *b) { return b->clock; }
@@ -394,13 +394,20 @@ static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density
         for (int a = 0; a < 3 && b->fluid.id[s] >= 0; a++)
             acceleration[b->fluid.id[s]][a] =
                 c->acceleration_factor * b->fluid.rate[a][s] + b->sweep.gravity[a];
-    cpu_update_dynamic(b);
+    b->table->update_dynamic(b);
     zero_rates(b, 1);
     cpu_sweep_fluid(b, b->table->density[(b->setup.pair_mask & PAIR_DIFFUSION) != 0]);
     for (int s = 0; s < slots; s++)
         if (b->fluid.id[s] >= 0)
             density_rate[b->fluid.id[s]] = c->density_factor * b->fluid.rate[0][s];
     return true;
+}
+
+static void cpu_place(Backend *b, const Advance *advance) { b->table->place(b, advance); }
+
+static void cpu_advance(Backend *b, const Advance *advance, ParticleSums *sums)
+{
+    b->table->advance(b, advance, sums);
 }
 
 const BackendTable *backend_cpu(void)

@@ -67,14 +67,9 @@ void cpu_prune(Backend *backend);
 void cpu_refresh_boxes(Backend *backend); ///< when particles have moved since
 /// Slab by slab, even ones first, then odd ones: each slab writes to itself and the next.
 void cpu_sweep_fluid(Backend *backend, void (*function)(const Sweep *, int, int));
-void cpu_place(Backend *backend, const Advance *advance);
-void cpu_advance(Backend *backend, const Advance *advance, ParticleSums *sums);
-void cpu_update_pressure(Backend *backend);
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
 double cpu_elevation(Backend *backend, double x, double y);
 double cpu_pressure(Backend *backend, Vec3 point);
 void cpu_statistics(const Backend *backend, BackendStatistics *statistics);
-/// D = diffusion (excess less the hydrostatic one at the present height); zero for padding.
-void cpu_update_dynamic(Backend *backend);
 
 #endif

@@ -1,5 +1,6 @@
 /// The CPU backend's integration: kick, half drift, density, half drift; dummies on their paths.
-/// Compiled without -ffinite-math-only: this is where not-a-numbers are caught.
+/// Compiled once per instruction level (sweep.h), without -ffinite-math-only: this is where
+/// not-a-numbers are caught.
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +15,7 @@ static int block_end(const ParticleSet *set, int begin)
     return begin + BLOCK < end ? begin + BLOCK : end;
 }
 
-void cpu_update_pressure(Backend *b)
+void AT_LEVEL(step_update_pressure)(Backend *b)
 {
     ParticleSet *f = &b->fluid;
     float tait = b->sweep.tait_b, rho0 = b->sweep.rest_density;
@@ -38,7 +39,7 @@ static void block_dynamic(const Backend *b, ParticleSet *f, int begin, int end)
     }
 }
 
-void cpu_update_dynamic(Backend *b)
+void AT_LEVEL(step_update_dynamic)(Backend *b)
 {
 #pragma omp parallel for schedule(static) num_threads(b->setup.threads)
     for (int begin = 0; begin < b->fluid.cluster_count * CLUSTER; begin += BLOCK)
@@ -224,7 +225,7 @@ static void finish_dummies(Backend *b)
             if (m->id[i] >= 0) m->position[a][i] = m->target[a][i];
 }
 
-void cpu_place(Backend *b, const Advance *advance)
+void AT_LEVEL(step_place)(Backend *b, const Advance *advance)
 {
     for (int begin = 0; begin < b->moving.cluster_count * CLUSTER; begin += BLOCK)
         block_targets(b, advance, begin, block_end(&b->moving, begin));
@@ -378,7 +379,7 @@ static void kick_and_drift(Backend *b, const Advance *advance)
     b->clock[CLOCK_INTEGRATE] += cpu_clock() - start - zone;
 }
 
-void cpu_advance(Backend *b, const Advance *advance, ParticleSums *sums)
+void AT_LEVEL(step_advance)(Backend *b, const Advance *advance, ParticleSums *sums)
 {
     double start = cpu_clock(), now;
 #define LAP(which) (now = cpu_clock(), b->clock[which] += now - start, start = now)

@@ -315,6 +315,10 @@ const SweepTable *AT_LEVEL(sweep_table)(void)
 {
     static const SweepTable table = {
         SWEEP_LEVEL,
+        AT_LEVEL(step_place),
+        AT_LEVEL(step_advance),
+        AT_LEVEL(step_update_pressure),
+        AT_LEVEL(step_update_dynamic),
         AT_LEVEL(near_clusters),
         AT_LEVEL(near_prune),
         {acceleration_plain, acceleration_viscous},

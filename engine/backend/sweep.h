@@ -1,6 +1,6 @@
-/// The neighbour sweeps: loops of physics/pair.h over lists of clusters. cpu_near.c and cpu_sweep.c
-/// are compiled once per instruction level; each build exports one SweepTable and the best one is
-/// chosen at start.
+/// The neighbour sweeps: loops of physics/pair.h over lists of clusters. cpu_near.c, cpu_sweep.c
+/// and cpu_step.c are compiled once per instruction level; each build exports one SweepTable and
+/// the best one is chosen at start.
 #ifndef FAIRLEAD_BACKEND_SWEEP_H
 #define FAIRLEAD_BACKEND_SWEEP_H
 
@@ -20,8 +20,17 @@ typedef struct Sweep {
     float unit;         ///< [m]
 } Sweep;
 
+struct Backend;
+struct Advance;
+struct ParticleSums;
+
 typedef struct SweepTable {
-    const char *level; ///< "x86-64-v3" …
+    const char *level;                                       ///< "x86-64-v3" …
+    void (*place)(struct Backend *, const struct Advance *); ///< as in backend.h
+    void (*advance)(struct Backend *, const struct Advance *, struct ParticleSums *);
+    void (*update_pressure)(struct Backend *); ///< P from the density excess
+    /// D = diffusion (excess less the hydrostatic one at the present height); zero for padding.
+    void (*update_dynamic)(struct Backend *);
     /// Clusters begin..end of `b` whose boxes lie within the reach [unit^2] of box i of `a`: their
     /// numbers into `entry` [room], or only their count when NULL. @return how many, at most room
     int (*near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
@@ -53,6 +62,10 @@ const SweepTable *sweep_table_native(void);
 #define AT_LEVEL_JOIN(name, suffix) name##_##suffix
 #define AT_LEVEL_EXPAND(name, suffix) AT_LEVEL_JOIN(name, suffix)
 #define AT_LEVEL(name) AT_LEVEL_EXPAND(name, SWEEP_SUFFIX)
+void AT_LEVEL(step_place)(struct Backend *, const struct Advance *);
+void AT_LEVEL(step_advance)(struct Backend *, const struct Advance *, struct ParticleSums *);
+void AT_LEVEL(step_update_pressure)(struct Backend *);
+void AT_LEVEL(step_update_dynamic)(struct Backend *);
 int AT_LEVEL(near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
                             float reach_squared, uint32_t *entry, int room);
 void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
