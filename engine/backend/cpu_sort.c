@@ -62,11 +62,16 @@ bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, 
         TAKE(set->boxes.min[a], clusters, int32_t, "boxes");
         TAKE(set->boxes.max[a], clusters, int32_t, "boxes");
     }
-    for (int f = 0; f < (field_count < 3 ? 3 : field_count); f++)
+    // a set that never moves has one array of zeros for its three velocities
+    TAKE(set->field[VELOCITY_X], n, float, "field");
+    for (int f = 1; f < 3; f++)
+        set->field[f] = set->field[VELOCITY_X];
+    for (int f = 1; f < field_count; f++)
         TAKE(set->field[f], n, float, "field");
     TAKE(set->id, n, int32_t, "id");
     TAKE(set->pressure, n, float, "pressure");
-    TAKE(set->dynamic, n, float, "dynamic");
+    set->dynamic = set->pressure; // dummies have no D; nobody uses what is read here
+    if (field_count == FLUID_FIELDS) TAKE(set->dynamic, n, float, "dynamic");
     TAKE(set->row_begin, (size_t)grid->row_count + 1, int, "rows");
 #undef TAKE
     // before the first sort the particles lie in slots 0 … count - 1
