@@ -139,12 +139,12 @@ FN void visit_density(const Self *self, const Arrays *other, size_t base, const 
 {
     Offset d = offset_to(self, other, base);
     Lanes slope = kernel_slope(pair_closeness(offset_square(d), c.support));
-    Lanes stretch = slope * approach_of(self, other, base, d), diffused = lanes_all(0);
-    if (diffusive) diffused = slope * (lanes_load(other->dynamic + base) - self->dynamic);
-    *sum += diffused - stretch;
+    Lanes stretch = approach_of(self, other, base, d), spread = lanes_all(0);
+    if (diffusive) spread = lanes_load(other->dynamic + base) - self->dynamic;
+    *sum += slope * (spread - stretch);
     if (react)
         lanes_store(other->rate[0] + base,
-                    lanes_load(other->rate[0] + base) - (diffused + stretch));
+                    lanes_load(other->rate[0] + base) - slope * (spread + stretch));
 }
 
 /// Push of the fluid's pairs and of its own cluster on particle l of cluster i.
