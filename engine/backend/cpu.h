@@ -45,6 +45,7 @@ struct Backend {
     ClusterList fluid_fluid, fluid_fixed, fluid_moving, fixed_fluid, moving_fluid;
     SortScratch scratch;
     Rows rows;
+    char *meet;             ///< [slabs + 1][blocks + 2] what sweeps of slabs and blocks share
     Vec3 *moving_reference; ///< by id
     int16_t *moving_owner;  ///< by id
     const SweepTable *table;
@@ -65,7 +66,7 @@ double cpu_clock(void);
 bool cpu_neighbours(Backend *backend, Error *error);
 void cpu_prune(Backend *backend);
 void cpu_refresh_boxes(Backend *backend); ///< when particles have moved since
-/// Slab by slab, even ones first, then odd ones: each slab writes to itself and the next.
+/// A sweep over all clusters of the fluid, block by block of each slab.
 void cpu_sweep_fluid(Backend *backend, void (*function)(const Sweep *, int, int));
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
 double cpu_elevation(Backend *backend, double x, double y);

@@ -31,6 +31,9 @@ Grid grid_create(const double min[3], const double max[3], int dimensions, doubl
     grid.bins = size[grid.along] / grid.bin + 1;
     grid.slab_count = (grid.slab_rows + SLAB_ROWS - 1) / SLAB_ROWS;
     grid.row_count = grid.slab_rows * grid.across_rows;
+    // a block reaches into the one beside it only if it is as wide as the reach
+    grid.blocks = grid.across_rows / (4 * ROW_REACH);
+    grid.blocks = grid.blocks < 1 ? 1 : (grid.blocks > BLOCKS_MAX ? BLOCKS_MAX : grid.blocks);
     double reach = (support + skin) / grid.unit;
     grid.reach = (int32_t)reach + 1;
     grid.reach_squared = (float)(reach * reach);

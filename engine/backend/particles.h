@@ -14,14 +14,14 @@
 #include "physics/pair.h"
 
 enum { CLUSTER = 8, FIELDS_MAX = 6, ROW_REACH = 2, SLAB_ROWS = 2 };
+enum { BLOCKS_MAX = 4 };
 enum { ENTRIES_MAX = 2048 }; ///< neighbours a cluster may have; only collapsed water has more
 #define PADDING (-(1 << 30)) ///< coordinate of an empty slot [unit]; real ones are in [0, 2^30)
 #define COORDINATE_END (1 << 30)
 
 /// How space is cut. Rows are half of support + skin wide, so neighbours lie within ROW_REACH rows.
-/// Axis `slab` is the longest lateral one: slabs of SLAB_ROWS rows are the units of parallel work,
-/// and a half list reaches only into the own and the next slab, so slabs of one parity never
-/// collide.
+/// Axis `slab` is the longest lateral one: slabs of SLAB_ROWS rows, cut into blocks, are the units
+/// of parallel work; a half list reaches only into the own and the next slab.
 typedef struct Grid {
     double origin[3];        ///< world position of coordinate 0 [m]
     double unit;             ///< [m]
@@ -30,6 +30,7 @@ typedef struct Grid {
     int32_t bin;             ///< sorting bin along the row [unit]
     int slab_rows, across_rows, bins;
     int slab_count, row_count;
+    int blocks;          ///< parts of a slab side by side, each a task
     float reach_squared; ///< (support + skin)^2 [unit^2]
     int32_t reach;       ///< support + skin [unit]
 } Grid;
