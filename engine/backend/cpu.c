@@ -190,22 +190,22 @@ static bool rebuild_lists(Backend *b)
 
 static void prune_row(Backend *b, int row)
 {
-    double reach =
-        2 * b->setup.smoothing_length + rows_pruned(&b->rows, row, b->last_step, b->skin);
-    reach /= b->grid.unit;
+    const RowPruning pruning = rows_pruned(&b->rows, row, b->last_step, b->skin);
+    double reach = (2 * b->setup.smoothing_length + pruning.margin) / b->grid.unit;
     float squared = (float)(reach * reach);
-    int fluid = b->fluid.row_begin[row], fluid_end = b->fluid.row_begin[row + 1];
-    b->table->prune(&b->fluid_fluid, &b->fluid, &b->fluid, fluid, fluid_end, squared);
-    if (b->fixed.count) {
-        b->table->prune(&b->fluid_fixed, &b->fluid, &b->fixed, fluid, fluid_end, squared);
-        b->table->prune(&b->fixed_fluid, &b->fixed, &b->fluid, b->fixed.row_begin[row],
-                        b->fixed.row_begin[row + 1], squared);
-    }
-    if (b->moving.count) {
-        b->table->prune(&b->fluid_moving, &b->fluid, &b->moving, fluid, fluid_end, squared);
-        b->table->prune(&b->moving_fluid, &b->moving, &b->fluid, b->moving.row_begin[row],
-                        b->moving.row_begin[row + 1], squared);
-    }
+    ParticleSet *fluid = &b->fluid, *fixed = &b->fixed, *moving = &b->moving;
+    struct {
+        ClusterList *list;
+        const ParticleSet *a, *b;
+    } lists[] = {{&b->fluid_fluid, fluid, fluid},
+                 {&b->fluid_fixed, fluid, fixed},
+                 {&b->fixed_fluid, fixed, fluid},
+                 {&b->fluid_moving, fluid, moving},
+                 {&b->moving_fluid, moving, fluid}};
+    for (int k = 0; k < 5; k++)
+        if (lists[k].a->count && lists[k].b->count)
+            b->table->prune(lists[k].list, lists[k].a, lists[k].b, lists[k].a->row_begin[row],
+                            lists[k].a->row_begin[row + 1], squared, pruning.exact);
 }
 
 void cpu_prune(Backend *b)

@@ -33,8 +33,14 @@ void rows_move(Rows *rows, const Grid *grid, double dt);
 /// Whether the lists serve another step.
 bool rows_lists_hold(const Rows *rows, const Grid *grid, double dt, double skin);
 bool rows_due(const Rows *rows, int row); ///< bits of the row have to be written
-/// Bits are being written. @return the margin they get [m]
-float rows_pruned(Rows *rows, int row, double dt, double skin);
+/// How bits are to be written.
+typedef struct RowPruning {
+    float margin; ///< [m]
+    bool exact;   ///< by particles, not by boxes
+} RowPruning;
+
+/// Bits of the row are about to be written.
+RowPruning rows_pruned(Rows *rows, int row, double dt, double skin);
 
 struct Backend {
     BackendSetup setup;

@@ -55,10 +55,25 @@ FN Lanes outside(IntLanes x, int32_t min, int32_t max)
     return lanes_from_int(lanes_max_int(lanes_max_int(below, above), lanes_all_int(0)));
 }
 
-/// Which of the 32 entries each particle visits: a bit each.
-FN IntLanes visit_bits(const Points *p, const Boxes *boxes, const uint32_t *entry, int count,
-                       float reach_squared)
+/// Which of the points have one of a cluster's particles within reach: all bits of their lanes.
+FN IntLanes near_particles(const Points *p, const ParticleSet *set, uint32_t c, float reach_squared)
 {
+    IntLanes near = lanes_all_int(0);
+    for (uint32_t k = c * CLUSTER; k < (c + 1) * CLUSTER; k++) {
+        Lanes dx = lanes_from_int(p->x - set->position[0][k]);
+        Lanes dy = lanes_from_int(p->y - set->position[1][k]);
+        Lanes dz = lanes_from_int(p->z - set->position[2][k]);
+        near |= dx * dx + dy * dy + dz * dz < reach_squared;
+    }
+    return near;
+}
+
+/// Which of the 32 entries each particle visits: a bit each. `exact`: one of the cluster's
+/// particles is within reach, not only its box.
+FN IntLanes visit_bits(const Points *p, const ParticleSet *set, const uint32_t *entry, int count,
+                       float reach_squared, bool exact)
+{
+    const Boxes *boxes = &set->boxes;
     IntLanes bits = lanes_all_int(0);
     for (int k = 0; k < count; k++) {
         uint32_t c = entry[k];
@@ -66,29 +81,39 @@ FN IntLanes visit_bits(const Points *p, const Boxes *boxes, const uint32_t *entr
         Lanes gy = outside(p->y, boxes->min[1][c], boxes->max[1][c]);
         Lanes gz = outside(p->z, boxes->min[2][c], boxes->max[2][c]);
         IntLanes near = gx * gx + gy * gy + gz * gz < reach_squared;
+        if (exact) near &= near_particles(p, set, c, reach_squared);
         bits |= near & (int32_t)(UINT32_C(1) << k);
     }
     return bits;
 }
 
-void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
-                          int end, float reach_squared)
+FN void prune(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int i,
+              float reach_squared, bool exact)
 {
-    for (int i = begin; i < end; i++) {
-        const uint32_t *entry = list->entry + list->begin[i];
-        int count = (int)list->count[i], bytes = (count + 7) / 8;
-        uint8_t *bits = list->near + list->begin[i];
-        const Points p = {lanes_load_int(a->position[0] + i * CLUSTER),
-                          lanes_load_int(a->position[1] + i * CLUSTER),
-                          lanes_load_int(a->position[2] + i * CLUSTER)};
-        for (int k = 0; k < count; k += 32) {
-            int entries = count - k < 32 ? count - k : 32;
-            IntLanes word = visit_bits(&p, &b->boxes, entry + k, entries, reach_squared);
-            size_t size = (size_t)(entries + 7) / 8;
-            for (int l = 0; l < CLUSTER; l++) {
-                int32_t own = word[l];
-                memcpy(bits + l * bytes + k / 8, &own, size); // little-endian, checked in lanes.h
-            }
+    const uint32_t *entry = list->entry + list->begin[i];
+    int count = (int)list->count[i], bytes = (count + 7) / 8;
+    uint8_t *bits = list->near + list->begin[i];
+    const Points p = {lanes_load_int(a->position[0] + i * CLUSTER),
+                      lanes_load_int(a->position[1] + i * CLUSTER),
+                      lanes_load_int(a->position[2] + i * CLUSTER)};
+    for (int k = 0; k < count; k += 32) {
+        int entries = count - k < 32 ? count - k : 32;
+        IntLanes word = visit_bits(&p, b, entry + k, entries, reach_squared, exact);
+        size_t size = (size_t)(entries + 7) / 8;
+        for (int l = 0; l < CLUSTER; l++) {
+            int32_t own = word[l];
+            memcpy(bits + l * bytes + k / 8, &own, size); // little-endian, checked in lanes.h
         }
     }
+}
+
+void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
+                          int end, float reach_squared, bool exact)
+{
+    if (exact)
+        for (int i = begin; i < end; i++)
+            prune(list, a, b, i, reach_squared, true);
+    else
+        for (int i = begin; i < end; i++)
+            prune(list, a, b, i, reach_squared, false);
 }

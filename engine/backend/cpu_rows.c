@@ -113,21 +113,19 @@ bool rows_lists_hold(const Rows *rows, const Grid *grid, double dt, double skin)
 }
 
 /// Visits cost three times the margin over their mean distance, pruning its cost over the steps
-/// that the margin lasts: the sum is least at a root of the path of a step.
-static float best_margin(const Rows *rows, int row, double dt, double skin)
+/// that the margin lasts: the sum is least at a root of the path of a step. Exact bits cost four
+/// times as much and save 7 % of all visits: worth it where they last for eight steps.
+RowPruning rows_pruned(Rows *rows, int row, double dt, double skin)
 {
-    float path = rows->speed[row] * (float)dt;
-    float margin = 0.35f * sqrtf(path * rows->spacing);
+    float path = rows->speed[row] * (float)dt, root = sqrtf(path * rows->spacing);
+    RowPruning pruning = {0.6f * root, 0.6f * root >= 8 * path};
+    if (!pruning.exact) pruning.margin = 0.35f * root;
     float left = (float)skin - rows->total[row]; // the lists know no farther neighbours
-    margin = margin < left ? margin : left;
-    return maxf(margin, rows->least_margin);
+    pruning.margin = pruning.margin < left ? pruning.margin : left;
+    pruning.margin = maxf(pruning.margin, rows->least_margin);
+    rows->margin[row] = pruning.margin;
+    rows->stretch[row] = 0;
+    return pruning;
 }
 
 bool rows_due(const Rows *rows, int row) { return rows->stretch[row] > rows->margin[row]; }
-
-float rows_pruned(Rows *rows, int row, double dt, double skin)
-{
-    rows->margin[row] = best_margin(rows, row, dt, skin);
-    rows->stretch[row] = 0;
-    return rows->margin[row];
-}

@@ -35,9 +35,10 @@ typedef struct SweepTable {
     /// numbers into `entry` [room], or only their count when NULL. @return how many, at most room
     int (*near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
                          float reach_squared, uint32_t *entry, int room);
-    /// Visit bits of clusters begin..end of `a`: clusters of `b` within the reach [unit^2].
+    /// Visit bits of clusters begin..end of `a`: clusters of `b` whose boxes, or with `exact` one
+    /// of whose particles, are within the reach [unit^2].
     void (*prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin, int end,
-                  float reach_squared);
+                  float reach_squared, bool exact);
     /// Acceleration sums of fluid clusters begin..end into fluid->rate, by mask; adds to the rates
     /// of clusters in the own and the next slab.
     void (*acceleration[2])(const Sweep *, int begin, int end);
@@ -69,7 +70,7 @@ void AT_LEVEL(step_update_dynamic)(struct Backend *);
 int AT_LEVEL(near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
                             float reach_squared, uint32_t *entry, int room);
 void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
-                          int end, float reach_squared);
+                          int end, float reach_squared, bool exact);
 #endif
 
 /// The best table this processor runs. FAIRLEAD_LEVEL=x86-64-v2|v3|v4 asks for a lower one.
