@@ -127,6 +127,7 @@ static void block_drift(const Backend *b, ParticleSet *f, int begin, int end, fl
 /// The last barrier at fixed planes: a jet one particle thin carries no pressure that dummies could
 /// extrapolate, and would seep through. What is up to two spacings behind a plane goes back onto it
 /// and loses its speed into it; what flew over the walls stays out.
+/// @param dt  since it last looked [s]
 /// @return whether a particle was put farther than its step took it: lists may miss its neighbours
 static bool block_barrier(const Backend *b, ParticleSet *f, int begin, int end, float dt)
 {
@@ -246,7 +247,7 @@ static bool block_finish(Backend *b, int begin, int end, float dt)
         excess[i] = next < floor ? floor : next;
     }
     block_drift(b, f, begin, end, 0.5f * dt);
-    bool jumped = block_barrier(b, f, begin, end, 0.5f * dt);
+    bool jumped = block_barrier(b, f, begin, end, dt);
     for (int i = begin; i < end; i++) {
         float rho = rho0 * (1.0f + excess[i]);
         f->pressure[i] = tait_pressure(excess[i], tait) / (rho * rho);
