@@ -16,7 +16,7 @@
 
 /// What the pictures may take of all cores' time [-]. It leaves two cores 0.92 of their bare speed,
 /// a client on the same cores included (docs/performance.md).
-#define PACE_SHARE 0.06
+#define PACE_SHARE 0.075
 
 /// One watcher's or many watchers': pictures are drawn once for all.
 typedef struct Pace {
