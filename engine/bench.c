@@ -214,22 +214,21 @@ BenchFlops bench_flops(void)
     // as none.
     enum {
         DISTANCE = 8,  // three differences, three squares, two sums
-        CLOSENESS = 4, // root, product, 1 - ., max
-        SLOPE = 2,     // s^3
+        CLOSENESS = 3, // root, 2h - r, max
+        SLOPE = 2,     // closeness^3
         APPROACH = 8,  // v_ik . x_ik: three differences, three products, two sums
         VISCOUS = 5,   // min, product, r^2 + eta^2, division, sum with the pressures
         PUSH = 5,      // P_i + P_k, times the slope, times x_ik
-        SQUEEZE = 1,   // slope times approach
-        DIFFUSED = 4,  // difference of D, two products, sum with the squeeze
+        SPREAD = 1,    // D_k - D_i
+        WEIGHED = 2,   // less (or plus) the approach, times the slope
     };
     BenchFlops flops;
     // three sums of i, three of k
     flops.fluid_momentum = DISTANCE + CLOSENESS + SLOPE + APPROACH + VISCOUS + PUSH + 3 + 3;
-    // the sum of i; difference and sum of k
-    flops.fluid_density = DISTANCE + CLOSENESS + SLOPE + APPROACH + SQUEEZE + DIFFUSED + 1 + 2;
-    // dummies have no viscosity and no diffusion, and take no sum
+    flops.fluid_density = DISTANCE + CLOSENESS + SLOPE + APPROACH + SPREAD + 2 * WEIGHED + 1 + 1;
+    // walls are not viscous, do not diffuse and feel nothing in these sums
     flops.dummy_momentum = DISTANCE + CLOSENESS + SLOPE + PUSH + 3;
-    flops.dummy_density = DISTANCE + CLOSENESS + SLOPE + APPROACH + SQUEEZE + 1;
+    flops.dummy_density = DISTANCE + CLOSENESS + SLOPE + APPROACH + WEIGHED + 1;
     return flops;
 }
 

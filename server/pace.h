@@ -14,7 +14,7 @@
 
 #include <stdbool.h>
 
-/// What the pictures may take of all cores' time [-]. It leaves two cores 0.92 of their bare speed,
+/// What the pictures may take of all cores' time [-]. It leaves two cores 0.90 of their bare speed,
 /// a client on the same cores included (docs/performance.md).
 #define PACE_SHARE 0.075
 

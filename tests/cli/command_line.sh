@@ -117,7 +117,7 @@ fact bench_refuses_too_few_particles 2 '' 'from 1000 to' "$program" bench --part
 fact bench_refuses_a_narrow_kernel 2 '' 'from 1.2 to 3' "$program" bench --smoothing-ratio 0.9
 fact bench_refuses_too_few_steps 2 '' 'from 5 to' "$program" bench --steps 2
 fact bench_takes_no_case 2 '' 'one word too many' "$program" bench cases/still_water.json
-fact bench_refuses_what_does_not_fit 2 '' 'may be used' "$program" bench --particles 100000000
+fact bench_refuses_too_many_particles 2 '' 'from 1000 to' "$program" bench --particles 200000000
 fact bench_prints_a_table 0 'one momentum and one density pass' '' "$program" bench --particles 3000 \
     --steps 5 --scene dam --threads 1
 if command -v node >/dev/null; then
