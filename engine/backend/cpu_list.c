@@ -84,7 +84,6 @@ static bool make_room(ClusterList *list, int clusters)
         list->begin[i] = (uint32_t)need;
         need += (list->count[i] + 7) / 8 * 8;
     }
-    list->entry_count = need;
     if (need + 8 > list->entry_capacity) {
         size_t capacity = need + need / 8 + 64;
         if (capacity > UINT32_MAX) return false;

@@ -43,7 +43,7 @@ Grid grid_create(const double min[3], const double max[3], int dimensions, doubl
 /// Slots a row may spend on ending clusters early at gaps.
 static int row_luxury(int count) { return CLUSTER + count / 8; }
 
-int set_slots(const Grid *grid, int count)
+static int slots_for(const Grid *grid, int count)
 {
     // each occupied row: its particles, its luxury, the padding of its last cluster
     int rows = grid->row_count < count ? grid->row_count : count;
@@ -56,7 +56,7 @@ bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, 
     memset(set, 0, sizeof *set);
     set->count = count;
     set->field_count = field_count;
-    set->slot_capacity = set_slots(grid, count);
+    set->slot_capacity = slots_for(grid, count);
     size_t n = (size_t)set->slot_capacity, clusters = n / CLUSTER;
 #define TAKE(pointer, items, type, what)                                                           \
     TRY((pointer) = arena_take(arena, (items), sizeof(type), "particles." what, error))

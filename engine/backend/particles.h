@@ -80,7 +80,7 @@ typedef struct ClusterList {
     uint32_t *count; ///< [cluster capacity]
     uint32_t *entry; ///< malloc'ed: grows, rarely, when a sort finds more neighbours
     uint8_t *near;   ///< [entry_capacity] visit bits
-    size_t entry_count, entry_capacity;
+    size_t entry_capacity;
 } ClusterList;
 
 /// Cut the box [min, max] (metres) into rows for the given support (2h) and skin [m].
@@ -90,7 +90,6 @@ Grid grid_create(const double min[3], const double max[3], int dimensions, doubl
 /// Arrays of a set, all but its rates and targets.
 bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
                 Error *error);
-int set_slots(const Grid *grid, int count); ///< slot_capacity for `count` particles
 
 bool scratch_create(SortScratch *scratch, const Grid *grid, int slots, int threads, Arena *arena,
                     Error *error);

@@ -4,18 +4,18 @@
 #ifndef FAIRLEAD_PHYSICS_FLUID_H
 #define FAIRLEAD_PHYSICS_FLUID_H
 
-#include "lane.h"
+#include "base/portable.h"
 
 #define TAIT_GAMMA 7
 
 /// p = b ((1 + s)^7 - 1), expanded so that small s keeps its digits.
 /// @param s  density excess rho/rho0 - 1 [-]; b = c0^2 rho0 / 7 [Pa]   @return [Pa]
-FN LANE tait_pressure(LANE s, float b)
+FN float tait_pressure(float s, float b)
 {
-    LANE t = 1.0f + s;
-    LANE t2 = t * t;
+    float t = 1.0f + s;
+    float t2 = t * t;
     // (t^7 - 1)/(t - 1) = 1 + t + … + t^6
-    LANE sum = 1.0f + t + t2 + t2 * t + t2 * t2 + t2 * t2 * t + t2 * t2 * t2;
+    float sum = 1.0f + t + t2 + t2 * t + t2 * t2 + t2 * t2 * t + t2 * t2 * t2;
     return b * s * sum;
 }
 
