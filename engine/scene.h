@@ -20,6 +20,8 @@ enum {
     SCENE_PATH_SIZE = 512,
     SCENE_BODIES_MAX = 32,
     SCENE_LINES_MAX = 64,
+    SCENE_LINE_SECTIONS_MAX = 16,
+    SCENE_POINTS_MAX = 64,
     SCENE_GAUGES_MAX = 32,
     SCENE_PRESSURE_PROBES_MAX = 64,
     SCENE_FLUID_BLOCKS_MAX = 16,
@@ -136,11 +138,51 @@ typedef struct BodyScene {
     double colour[3];           ///< for pictures, 0..1
 } BodyScene;
 
-/// An end of a line: a point fixed on earth or on a body.
+typedef enum PointKind {
+    POINT_FIXED, ///< on earth or on a body
+    POINT_FREE,  ///< moved by the lines it joins, its weight and the water
+} PointKind;
+
+/// A place where line ends meet: fixed, or a clump weight or buoy that moves freely.
+typedef struct PointScene {
+    char name[SCENE_NAME_SIZE];
+    PointKind kind;
+    int body;          ///< of a fixed point: index into bodies, -1 = earth
+    Vec3 position;     ///< [m], world axes or the body's; of a free point: a first guess
+    double mass;       ///< of a free point, without its lines [kg], >= 0
+    double volume;     ///< displaced when under water [m^3], >= 0
+    double drag_area;  ///< Cd A [m^2]
+    double added_mass; ///< coefficient Ca: added mass over displaced mass [-]
+} PointScene;
+
+/// An end of a line: at a point of the scene, or fixed on earth or on a body.
 typedef struct LineEnd {
+    int point;     ///< index into points, -1 = none: the end is held by what follows
     int body;      ///< index into bodies, -1 = earth
     Vec3 position; ///< [m], world axes (earth) or the body's geometry axes
 } LineEnd;
+
+/// Piece of a line of one type, counted from the anchor; NAN (segments: 0) = as the line says.
+typedef struct LineSection {
+    double length;            ///< unstretched [m]
+    int segments;             ///< 0 = in proportion to its length
+    double axial_stiffness;   ///< EA [N]
+    double mass_per_length;   ///< in air [kg/m]
+    double diameter;          ///< volume-equivalent [m]
+    double drag_normal;       ///< Cdn [-]
+    double drag_tangential;   ///< Cdt [-]
+    double added_normal;      ///< Can [-]
+    double added_tangential;  ///< Cat [-]
+    double damping_ratio;     ///< internal damping, fraction of critical per segment [-]
+    double bending_stiffness; ///< EI [N m^2]
+    double breaking_tension;  ///< [N]
+} LineSection;
+
+/// Whose velocity the drag on a line is relative to.
+typedef enum LineWater {
+    LINE_WATER_INCIDENT, ///< the wave's that comes in
+    LINE_WATER_SPH,      ///< the simulated water's at the nodes
+} LineWater;
 
 typedef struct LineScene {
     char name[SCENE_NAME_SIZE];
@@ -155,9 +197,14 @@ typedef struct LineScene {
     double added_tangential; ///< Cat [-]
     double damping_ratio;    ///< internal damping, fraction of critical per segment [-]
     int segments;
-    double bed_stiffness; ///< kb [Pa/m]: force per area and penetration
-    double bed_damping;   ///< cb [Pa s/m]
-    double bed_friction;  ///< Coulomb coefficient [-]
+    double bed_stiffness;     ///< kb [Pa/m]: force per area and penetration
+    double bed_damping;       ///< cb [Pa s/m]
+    double bed_friction;      ///< Coulomb coefficient [-]
+    double bending_stiffness; ///< EI [N m^2]; 0 = none
+    double breaking_tension;  ///< a segment that carries more parts [N]; 0 = never
+    LineWater water;
+    int section_count;                             ///< 0 = the same from end to end
+    LineSection sections[SCENE_LINE_SECTIONS_MAX]; ///< anchor first
 } LineScene;
 
 typedef struct GaugeScene {
@@ -195,6 +242,8 @@ typedef struct Scene {
     BodyScene bodies[SCENE_BODIES_MAX];
     int line_count;
     LineScene lines[SCENE_LINES_MAX];
+    int point_count;
+    PointScene points[SCENE_POINTS_MAX];
     int gauge_count;
     GaugeScene gauges[SCENE_GAUGES_MAX];
     int pressure_probe_count;
@@ -208,6 +257,12 @@ typedef struct Scene {
 Scene scene_default(void);
 BodyScene body_scene_default(void);
 LineScene line_scene_default(void);
+LineSection line_section_default(void);
+PointScene point_scene_default(void);
+
+/// Fill in what the sections leave to the line and set the line's own `length` and `segments` to
+/// their sums; does nothing to a line without sections. Every line must have passed through here.
+void line_scene_complete(LineScene *line);
 
 /// Read, override and check a case.
 /// @param path           the case file (JSON)

@@ -69,6 +69,7 @@ LineScene line_scene_default(void)
     LineScene line;
     memset(&line, 0, sizeof line);
     line.anchor.body = line.fairlead.body = -1;
+    line.anchor.point = line.fairlead.point = -1;
     line.anchor.position = line.fairlead.position = vec3(NAN, NAN, NAN);
     line.length = line.axial_stiffness = line.mass_per_length = line.diameter = NAN;
     // coefficients, internal damping and bed of MoorDyn's sample input (Hall 2015, users guide)
@@ -82,4 +83,57 @@ LineScene line_scene_default(void)
     line.bed_damping = 3.0e5;
     line.bed_friction = 0;
     return line;
+}
+
+LineSection line_section_default(void)
+{
+    LineSection section;
+    section.segments = 0;
+    section.length = section.axial_stiffness = section.mass_per_length = section.diameter = NAN;
+    section.drag_normal = section.drag_tangential = NAN;
+    section.added_normal = section.added_tangential = NAN;
+    section.damping_ratio = section.bending_stiffness = section.breaking_tension = NAN;
+    return section;
+}
+
+PointScene point_scene_default(void)
+{
+    PointScene point;
+    memset(&point, 0, sizeof point);
+    point.kind = POINT_FREE;
+    point.body = -1;
+    point.position = vec3(NAN, NAN, NAN);
+    point.added_mass = 0.5; // a sphere in unbounded water (Lamb 1932, Hydrodynamics, sec. 92)
+    return point;
+}
+
+static void inherit(double *value, double from)
+{
+    if (isnan(*value)) *value = from;
+}
+
+void line_scene_complete(LineScene *line)
+{
+    if (line->section_count == 0) return;
+    double length = 0;
+    for (int i = 0; i < line->section_count; i++)
+        length += line->sections[i].length;
+    int asked = line->segments, count = 0;
+    for (int i = 0; i < line->section_count; i++) {
+        LineSection *s = &line->sections[i];
+        if (s->segments == 0) s->segments = (int)maxd(1, round(asked * s->length / length));
+        count += s->segments;
+        inherit(&s->axial_stiffness, line->axial_stiffness);
+        inherit(&s->mass_per_length, line->mass_per_length);
+        inherit(&s->diameter, line->diameter);
+        inherit(&s->drag_normal, line->drag_normal);
+        inherit(&s->drag_tangential, line->drag_tangential);
+        inherit(&s->added_normal, line->added_normal);
+        inherit(&s->added_tangential, line->added_tangential);
+        inherit(&s->damping_ratio, line->damping_ratio);
+        inherit(&s->bending_stiffness, line->bending_stiffness);
+        inherit(&s->breaking_tension, line->breaking_tension);
+    }
+    line->length = length;
+    line->segments = count;
 }
