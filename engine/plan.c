@@ -194,6 +194,8 @@ static void choose_effects(const Scene *scene, Plan *plan, const Fill *fill)
     snprintf(text, sizeof text, scene->pressure_probe_count ? "probes.pressure: %d" : "no probes",
              scene->pressure_probe_count);
     set_effect(plan, EFFECT_PRESSURE_PROBES, scene->pressure_probe_count > 0, 0, text);
+    set_effect(plan, EFFECT_ENERGY, scene->energy != ENERGY_NONE, 0,
+               scene->energy == ENERGY_NONE ? "probes.energy is none" : "probes.energy: levels");
 }
 
 static void count_bytes(Plan *plan, const Fill *fill)

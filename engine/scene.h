@@ -218,6 +218,12 @@ typedef struct PressureProbeScene {
     Vec3 position; ///< [m], world or geometry axes
 } PressureProbeScene;
 
+/// What is kept of the energies.
+typedef enum EnergyProbe {
+    ENERGY_NONE,
+    ENERGY_LEVELS, ///< of water, bodies and lines, at each sample
+} EnergyProbe;
+
 typedef struct Outputs {
     double series_interval; ///< time between samples [s]
 } Outputs;
@@ -248,6 +254,7 @@ typedef struct Scene {
     GaugeScene gauges[SCENE_GAUGES_MAX];
     int pressure_probe_count;
     PressureProbeScene pressure_probes[SCENE_PRESSURE_PROBES_MAX];
+    EnergyProbe energy;
     Outputs outputs;
     CameraScene camera;
 } Scene;

@@ -91,6 +91,7 @@ static const JsonField PROBE_FIELDS[] = {
      .item_size = sizeof(PressureProbeScene),
      .counter_offset = offsetof(CaseFile, scene.pressure_probe_count),
      .count_max = SCENE_PRESSURE_PROBES_MAX, .item_default = pressure_default},
+    {"energy", FIELD_CHOICE, IN_CASE(scene.energy), .choices = {"none", "levels"}},
 };
 static const JsonTable PROBE_TABLE = {PROBE_FIELDS, COUNT(PROBE_FIELDS), NULL};
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "energy.h"
 #include "probes.h"
 
 static const char *const BODY_COLUMNS[] = {
@@ -13,12 +14,15 @@ static const char *const LINE_COLUMNS[] = {"fairlead_tension_n", "anchor_tension
                                            "largest_tension_n", "touchdown_m"};
 static const char *const GAUGE_COLUMNS[] = {"elevation_m"};
 static const char *const PROBE_COLUMNS[] = {"pressure_pa"};
+static const char *const WATER_ENERGY[] = {"kinetic_j", "potential_j", "compressible_j"};
+static const char *const BODY_ENERGY[] = {"bodies_j"};
+static const char *const LINE_ENERGY[] = {"lines_j"};
 
 #define COUNT_OF(array) (int)(sizeof(array) / sizeof *(array))
 
 static_assert(1 + SCENE_BODIES_MAX * COUNT_OF(BODY_COLUMNS) +
                       SCENE_LINES_MAX * COUNT_OF(LINE_COLUMNS) + SCENE_GAUGES_MAX +
-                      SCENE_PRESSURE_PROBES_MAX <=
+                      SCENE_PRESSURE_PROBES_MAX + 5 <=
                   SERIES_COLUMNS_MAX,
               "every scene fits into a table");
 static_assert(SCENE_NAME_SIZE + 24 <= SERIES_COLUMN_SIZE, "every name fits into a column's");
@@ -42,6 +46,10 @@ void series_table(const Scene *scene, SeriesTable *table)
         add_columns(table, scene->gauges[i].name, GAUGE_COLUMNS, COUNT_OF(GAUGE_COLUMNS));
     for (int i = 0; i < scene->pressure_probe_count; i++)
         add_columns(table, scene->pressure_probes[i].name, PROBE_COLUMNS, COUNT_OF(PROBE_COLUMNS));
+    if (scene->energy == ENERGY_NONE) return;
+    add_columns(table, "energy", WATER_ENERGY, COUNT_OF(WATER_ENERGY));
+    if (scene->body_count) add_columns(table, "energy", BODY_ENERGY, 1);
+    if (scene->line_count) add_columns(table, "energy", LINE_ENERGY, 1);
 }
 
 static double *add_vector(double *row, Vec3 v)
@@ -81,4 +89,5 @@ void series_sample(const Scene *scene, const Plan *plan, const State *state, dou
         *row++ = probe_elevation(scene, state, i);
     for (int i = 0; i < scene->pressure_probe_count; i++)
         *row++ = probe_pressure(scene, state, i);
+    if (scene->energy != ENERGY_NONE) energy_sample(scene, state, row);
 }

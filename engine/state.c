@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "backend/backend.h"
+#include "energy.h"
 #include "engine.h"
 #include "fill.h"
 #include "step.h"
@@ -136,6 +137,7 @@ static bool place_and_measure(const Scene *scene, const Plan *plan, State *state
         state->bodies[b].fluid_force = state->loads[b].force;
         state->bodies[b].fluid_moment = state->loads[b].moment;
     }
+    if (scene->energy != ENERGY_NONE) state->energy_start = energy_levels(scene, state);
     if (plan->pair_mask & PAIR_VISCOSITY)
         state->pair_cost[0] = state->backend->pair_cost(state->particles, PAIR_VISCOSITY);
     if (plan->pair_mask & PAIR_DIFFUSION)

@@ -31,6 +31,12 @@ typedef struct Checkpoint {
     void *particles; ///< Backend.save
 } Checkpoint;
 
+/// Energies [J], per metre in 2-D; see energy.h.
+typedef struct EnergyLevels {
+    double kinetic, potential, compressible; ///< of the water
+    double bodies, lines;
+} EnergyLevels;
+
 typedef struct State {
     double time; ///< simulated [s]
     int64_t step;
@@ -50,6 +56,7 @@ typedef struct State {
     BodyLoad *loads;                                  ///< of the last forces call [body_count]
     BodyPose *poses;                                  ///< at the end of the step [body_count]
     Vec3 *centres;                                    ///< of gravity [body_count]
+    EnergyLevels energy_start;                        ///< at t = 0, where the case asks for it
     Checkpoint checkpoint;                            ///< the last good state, for roll-back
     double line_seconds, body_seconds, probe_seconds; ///< wall time of host passes [s]
     double pair_cost[2]; ///< share of viscosity and diffusion in their sweeps [-]

@@ -91,6 +91,13 @@ typedef struct ParticleSums {
     int lost_count;                         ///< particles over a spacing beyond walls or bed
 } ParticleSums;
 
+/// Energies of the water, J, per metre in 2-D.
+typedef struct FluidEnergy {
+    double kinetic;
+    double potential;    ///< above the coordinate z = 0
+    double compressible; ///< of Tait's law, above that of water at rest density
+} FluidEnergy;
+
 /// Wall time of the last forces + advance [s], by what it was spent on.
 typedef enum BackendClock {
     CLOCK_SORT,
@@ -137,6 +144,7 @@ typedef struct BackendTable {
     double (*elevation)(Backend *backend, double x, double y);
     /// Shepard-interpolated pressure at a point [Pa]; 0 where dry.
     double (*pressure)(Backend *backend, Vec3 point);
+    FluidEnergy (*energy)(const Backend *backend);
     /// Everything that changes, for roll-back.
     size_t (*state_size)(const Backend *backend);
     void (*save)(const Backend *backend, void *to);

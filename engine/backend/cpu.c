@@ -444,6 +444,7 @@ const BackendTable *backend_cpu(void)
         .download = cpu_download,
         .elevation = cpu_elevation,
         .pressure = cpu_pressure,
+        .energy = cpu_energy,
         .state_size = cpu_state_size,
         .save = cpu_save,
         .restore = cpu_restore,

@@ -77,6 +77,7 @@ void cpu_sweep_fluid(Backend *backend, void (*function)(const Sweep *, int, int)
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
 double cpu_elevation(Backend *backend, double x, double y);
 double cpu_pressure(Backend *backend, Vec3 point);
+FluidEnergy cpu_energy(const Backend *backend);
 void cpu_statistics(const Backend *backend, BackendStatistics *statistics);
 
 #endif

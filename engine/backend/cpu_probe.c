@@ -1,4 +1,4 @@
-/// Reading the CPU backend: snapshots, wave gauges, pressure probes.
+/// Reading the CPU backend: snapshots, wave gauges, pressure probes, energies.
 #include <math.h>
 
 #include "backend/cpu.h"
@@ -117,4 +117,20 @@ double cpu_pressure(Backend *b, Vec3 point)
         }
     }
     return weight > 0 && sum > 0 ? sum / weight : 0;
+}
+
+FluidEnergy cpu_energy(const Backend *b)
+{
+    const ParticleSet *f = &b->fluid;
+    double square = 0, height = 0, elastic = 0;
+    for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
+        if (f->id[i] < 0) continue;
+        for (int a = 0; a < 3; a++)
+            square += (double)f->field[VELOCITY_X + a][i] * f->field[VELOCITY_X + a][i];
+        height += to_metres(&b->grid, 2, f->position[2][i]);
+        elastic += tait_energy(f->field[EXCESS][i], b->sweep.tait_b, b->setup.rest_density);
+    }
+    double mass = b->setup.particle_mass;
+    FluidEnergy energy = {0.5 * mass * square, mass * b->setup.gravity * height, mass * elastic};
+    return energy;
 }

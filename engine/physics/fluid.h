@@ -19,6 +19,15 @@ FN float tait_pressure(float s, float b)
     return b * s * sum;
 }
 
+/// Elastic energy per mass [J/kg] of water at density excess s: the integral of p/rho^2 drho from
+/// rho0, (b/rho0) [(r^6 - 1)/6 + 1/r - 1] with r = 1 + s; its s^2 taken out so that small s keeps
+/// its digits (c0^2 s^2/2 for s -> 0).
+FN double tait_energy(double s, double b, double rest_density)
+{
+    double series = 21 + s * (35 + s * (35 + s * (21 + s * (7 + s))));
+    return b / rest_density * s * s * series / (6 * (1 + s));
+}
+
 /// Least density excess [-]: water bears the tension of a column of h/2, -g h/(2 c0^2), and tears
 /// beyond. A lone particle that leaves others or a wall keeps the dilation of its last neighbours:
 /// its density falls without bound, the next it meets is pulled in, and no wall pushes it back.

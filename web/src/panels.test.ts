@@ -42,3 +42,9 @@ test("a still tank with a gauge only has one panel", () => {
   assert.equal(panels.length, 1);
   assert.equal(panels[0]!.traces[0]!.label, "middle");
 });
+
+test("energies share one panel in joule", () => {
+  const panels = panelsOf(["t_s", "energy.kinetic_j", "energy.potential_j", "energy.bodies_j"]);
+  assert.deepEqual(panels.map(({ title, unit }) => `${title} [${unit}]`), ["Energy [J]"]);
+  assert.deepEqual(panels[0]!.traces.map(({ label }) => label), ["kinetic", "potential", "bodies"]);
+});

@@ -29,6 +29,7 @@ const UNITS: readonly { suffix: string; unit: string; leastSpan: number }[] = [
   { suffix: "_n", unit: "N", leastSpan: 1 },
   { suffix: "_deg", unit: "deg", leastSpan: 0.2 },
   { suffix: "_pa", unit: "Pa", leastSpan: 10 },
+  { suffix: "_j", unit: "J", leastSpan: 0.001 },
   { suffix: "_m", unit: "m", leastSpan: 0.01 },
   { suffix: "_s", unit: "s", leastSpan: 0.01 },
 ];
@@ -56,6 +57,7 @@ const RULES: readonly Rule[] = [
   { id: "elevation", title: "Wave elevation", takes: /^elevation_m$/, perOwner: false, shown: true, first: ANY, shorten: () => "" },
   { id: "force", title: "Water force", takes: /^fluid_f[xyz]_n$/, perOwner: true, shown: true, first: /fz/, shorten: forceName },
   { id: "pressure", title: "Pressure", takes: /^pressure_pa$/, perOwner: false, shown: true, first: ANY, shorten: () => "" },
+  { id: "energy", title: "Energy", takes: /^.*_j$/, perOwner: true, shown: true, first: ANY, shorten: asIs },
   { id: "moment", title: "Water moment", takes: /^fluid_m[xyz]_nm$/, perOwner: true, shown: false, first: ANY, shorten: (quantity) => quantity.replace("fluid_m", "about ") },
   { id: "touchdown", title: "Line on the bed", takes: /^touchdown_m$/, perOwner: false, shown: false, first: ANY, shorten: () => "" },
 ];
