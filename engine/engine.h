@@ -34,6 +34,9 @@ void snapshot_destroy(Snapshot *snapshot);
 void journal_format_start(const Scene *scene, const Plan *plan, char *text, int size);
 void journal_format_command(double time, const WaveTarget *asked, char *text, int size);
 void journal_format_health(double time, const char *message, char *text, int size);
+void journal_format_line(const Scene *scene, const LineEvent *event, char *text, int size);
+/// The same in a few words, for a label on a plot: "bow line snaps: 345 N".
+void line_event_describe(const Scene *scene, const LineEvent *event, char *text, int size);
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,7 @@ void health_checkpoint(const Scene *scene, State *state)
     memcpy(c->bodies, state->bodies, (size_t)scene->body_count * sizeof(Body));
     for (int l = 0; l < scene->line_count; l++)
         line_state_save(&state->lines[l], c->lines[l]);
+    memcpy(c->watches, state->watches, (size_t)scene->line_count * sizeof(LineWatch));
     state->backend->save(state->particles, c->particles);
 }
 
@@ -34,6 +35,7 @@ static void roll_back(const Scene *scene, State *state)
     memcpy(state->bodies, c->bodies, (size_t)scene->body_count * sizeof(Body));
     for (int l = 0; l < scene->line_count; l++)
         line_state_restore(&state->lines[l], c->lines[l]);
+    memcpy(state->watches, c->watches, (size_t)scene->line_count * sizeof(LineWatch));
     state->backend->restore(state->particles, c->particles);
     // a command given since the checkpoint stays in force
     const WaveTarget *then = &c->waves.asked;

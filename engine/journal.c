@@ -132,6 +132,28 @@ void journal_format_command(double time, const WaveTarget *asked, char *text, in
     put(&writer, "}");
 }
 
+void journal_format_line(const Scene *scene, const LineEvent *event, char *text, int size)
+{
+    Writer writer = writer_create(text, size, 0);
+    put(&writer, "{\"time_s\":%.17g,\"event\":\"%s\",\"line\":", event->time,
+        event->kind == LINE_BROKE ? "break" : "snap");
+    put_text(&writer, scene->lines[event->line].name);
+    put(&writer, ",\"tension_n\":");
+    put_number(&writer, event->tension);
+    put(&writer, "}");
+}
+
+void line_event_describe(const Scene *scene, const LineEvent *event, char *text, int size)
+{
+    char name[SCENE_NAME_SIZE];
+    snprintf(name, sizeof name, "%s", scene->lines[event->line].name);
+    for (char *c = name; *c; c++)
+        if (*c == '_') *c = ' ';
+    snprintf(text, (size_t)size,
+             event->kind == LINE_BROKE ? "%s breaks: %.4g N" : "%s snaps: %.4g N", name,
+             event->tension);
+}
+
 void journal_format_health(double time, const char *message, char *text, int size)
 {
     Writer writer = writer_create(text, size, 1);

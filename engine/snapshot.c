@@ -33,6 +33,7 @@ bool snapshot_create(const Scene *scene, const Plan *plan, Snapshot *snapshot, E
         LineSnapshot *line = &snapshot->lines[l];
         line->node_count = scene->lines[l].segments + 1;
         line->diameter = scene->lines[l].diameter;
+        line->name = scene->lines[l].name;
         line->position = (float(*)[3])next;
         line->tension = next += 3 * line->node_count;
         next += line->node_count;
@@ -54,6 +55,16 @@ bool snapshot_create(const Scene *scene, const Plan *plan, Snapshot *snapshot, E
     return true;
 }
 
+/// Where the line leaves the bed: the last node at most a diameter above it that has one above it
+/// behind. -1 without.
+static int find_lift_off(const Line *line, double bed)
+{
+    double top = bed + line->scene->diameter;
+    for (int n = line->node_count - 2; n >= 0; n--)
+        if (line->position[n].z <= top && line->position[n + 1].z > top) return n;
+    return -1;
+}
+
 static void take_lines(const State *state, Snapshot *snapshot)
 {
     for (int l = 0; l < snapshot->line_count; l++) {
@@ -65,6 +76,12 @@ static void take_lines(const State *state, Snapshot *snapshot)
             out->position[n][2] = (float)line->position[n].z;
             if (n) out->tension[n - 1] = (float)line->tension[n - 1];
         }
+        out->slack = line_watch_slack(&state->watches[l]);
+        out->rest = state->watches[l].rest;
+        out->largest = line->largest_tension;
+        out->touchdown = line->touchdown;
+        out->snap_time = state->watches[l].snap_time;
+        out->lift_off = find_lift_off(line, snapshot->domain.min.z);
     }
 }
 

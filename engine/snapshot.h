@@ -21,6 +21,13 @@ typedef struct LineSnapshot {
     float (*position)[3]; ///< [node_count][m], anchor first
     float *tension;       ///< [node_count - 1][N]
     double diameter;      ///< [m]
+    const char *name;     ///< constant while the scene lives, borrowed; NULL = not told
+    double slack;         ///< below this a segment is slack [N]
+    double rest;          ///< tension of the last segment at rest [N]
+    double largest;       ///< tension so far [N]
+    double touchdown;     ///< length on the bed [m]
+    double snap_time;     ///< of the last snap [s], -INFINITY before the first
+    int lift_off;         ///< last node on the bed next to one above it, -1 without
 } LineSnapshot;
 
 typedef struct EffectShare {

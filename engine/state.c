@@ -96,6 +96,9 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
     TRY(state->poses = arena_take(&state->arena, bodies, sizeof(BodyPose), "poses", error));
     TRY(state->centres = arena_take(&state->arena, bodies, sizeof(Vec3), "centres", error));
     TRY(state->lines = arena_take(&state->arena, lines, sizeof(Line), "lines", error));
+    TRY(state->watches = arena_take(&state->arena, lines, sizeof(LineWatch), "lines", error));
+    if (lines)
+        TRY(state->events = arena_take(&state->arena, 1, sizeof(LineEvents), "lines", error));
     for (int b = 0; b < scene->body_count; b++)
         state->bodies[b] = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
     WaterField water = step_water(scene, state);
@@ -105,6 +108,7 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
         snprintf(where, sizeof where, "lines[%d]", l);
         TRY(line_create(&scene->lines[l], plan->lines[l].anchor, plan->lines[l].fairlead, &water,
                         where, &state->arena, &state->lines[l], &statics, error));
+        state->watches[l] = line_watch_create(&state->lines[l], &water);
     }
     return true;
 }
@@ -116,6 +120,7 @@ static bool create_checkpoint(const Scene *scene, State *state, Error *error)
     c->time = NAN;
     TRY(c->bodies = arena_take(&state->arena, bodies, sizeof(Body), "checkpoint", error));
     TRY(c->lines = arena_take(&state->arena, lines, sizeof(double *), "checkpoint", error));
+    TRY(c->watches = arena_take(&state->arena, lines, sizeof(LineWatch), "checkpoint", error));
     for (int l = 0; l < scene->line_count; l++)
         TRY(c->lines[l] = arena_take(&state->arena, line_state_size(&state->lines[l]),
                                      sizeof(double), "checkpoint", error));

@@ -8,6 +8,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "body.h"
+#include "line_watch.h"
 #include "plan.h"
 #include "waves.h"
 
@@ -27,7 +28,8 @@ typedef struct Checkpoint {
     int64_t step;
     WaveState waves;
     Body *bodies;
-    double **lines;  ///< line_state_save of each
+    double **lines; ///< line_state_save of each
+    LineWatch *watches;
     void *particles; ///< Backend.save
 } Checkpoint;
 
@@ -42,8 +44,10 @@ typedef struct State {
     int64_t step;
     double time_step; ///< in use now [s]
     WaveState waves;
-    Body *bodies; ///< [scene->body_count]
-    Line *lines;  ///< [scene->line_count]
+    Body *bodies;       ///< [scene->body_count]
+    Line *lines;        ///< [scene->line_count]
+    LineWatch *watches; ///< [scene->line_count]
+    LineEvents *events; ///< of all lines; NULL without lines
     HealthRecord health;
     double wall_time;                                 ///< spent in step_advance [s]
     double smallest_step, largest_step;               ///< used so far [s]

@@ -94,9 +94,11 @@ static bool advance_lines(const Scene *scene, State *state, double dt, const Lin
                           Error *error)
 {
     WaterField water = step_water(scene, state);
-    for (int l = 0; l < scene->line_count; l++)
+    for (int l = 0; l < scene->line_count; l++) {
         TRY(line_advance(&state->lines[l], &water, state->time, dt, &paths->anchor[l],
                          &paths->fairlead[l], error));
+        line_watch_step(&state->watches[l], &state->lines[l], l, state->time + dt, state->events);
+    }
     return true;
 }
 

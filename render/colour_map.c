@@ -28,6 +28,8 @@ static const double stops[MAP_COUNT][STOPS][3] = {
                      {0.34, 0.120, 0.010}},
 };
 
+const float SLACK_COLOUR[3] = {0.66f, 0.42f, 0.92f};
+
 static double encode(double linear)
 {
     linear = mind(maxd(linear, 0.0), 1.0);

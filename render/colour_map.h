@@ -14,6 +14,9 @@ typedef enum ColourMap {
 
 enum { COLOUR_MAP_SIZE = 256 };
 
+/// A slack line: violet, in no map, seen against water and bed.
+extern const float SLACK_COLOUR[3];
+
 /// Colour at 0..1 (clamped) as shown, red, green, blue 0..1.
 /// Source: Ottosson (2020), "A perceptual color space for image processing".
 void colour_map(ColourMap map, double at, double rgb[3]);

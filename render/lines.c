@@ -1,13 +1,19 @@
+#include "colour_map.h"
 #include "parts.h"
 
 enum { TANK_EDGES = 12 };
 
 static const double least_half_width = 1.4; ///< [pixel] of a picture 540 high
 static const double anchor_size = 0.008;    ///< of the scene's radius
+static const double near_largest = 0.9;     ///< of a line's largest tension so far: drawn thick
+static const double worth_telling = 1.5;    ///< a largest tension below this many times rest is not
 
-/// One corner of a ribbon: the nodes before, here and after, side, tension.
+/// What a stretch of line is told as: in the scale's colours, plainly slack, or thick.
+typedef enum LineMark { MARK_WORKING, MARK_SLACK, MARK_NEAR_LARGEST } LineMark;
+
+/// One corner of a ribbon: the nodes before, here and after, side, tension, mark.
 typedef struct LineVertex {
-    float before[3], here[3], after[3], side, tension;
+    float before[3], here[3], after[3], side, tension, mark;
 } LineVertex;
 
 bool lines_create(Lines *lines, const Gl *gl, Error *error)
@@ -15,7 +21,8 @@ bool lines_create(Lines *lines, const Gl *gl, Error *error)
     static const char *const samplers[] = {"maps", NULL};
     TRY(lines->program = gl_program(gl, "line", samplers, error));
     lines->size = gl->GetUniformLocation(lines->program, "size");
-    const int sizes[] = {3, 3, 3, 2, 0};
+    lines->slack = gl->GetUniformLocation(lines->program, "slack");
+    const int sizes[] = {3, 3, 3, 3, 0};
     gl_mesh_create(gl, &lines->mesh, sizes);
     return true;
 }
@@ -31,7 +38,7 @@ void lines_destroy(Lines *lines, const Gl *gl)
 static bool finite_point(const float *p) { return isfinite(p[0] + p[1] + p[2]); }
 
 static void put_pair(LineVertex *out, const float *before, const float *here, const float *after,
-                     float tension)
+                     float tension, LineMark mark)
 {
     for (int side = 0; side < 2; side++) {
         for (int k = 0; k < 3; k++) {
@@ -41,7 +48,15 @@ static void put_pair(LineVertex *out, const float *before, const float *here, co
         }
         out[side].side = side ? 1.0f : -1.0f;
         out[side].tension = tension;
+        out[side].mark = (float)mark;
     }
+}
+
+static LineMark mark_of(const LineSnapshot *line, double tension)
+{
+    if (tension < line->slack) return MARK_SLACK;
+    bool told = line->largest >= worth_telling * line->rest && line->rest > 0;
+    return told && tension >= near_largest * line->largest ? MARK_NEAR_LARGEST : MARK_WORKING;
 }
 
 /// Ribbon of one line; a line with a node that is not finite is left out. @return vertices written
@@ -56,20 +71,21 @@ static int line_vertices(const LineSnapshot *line, LineVertex *out)
         float high = line->tension[n < nodes - 1 ? n : nodes - 2];
         float tension = 0.5f * (low + high);
         put_pair(out + 2 * n, line->position[n > 0 ? n - 1 : 0], line->position[n],
-                 line->position[n < nodes - 1 ? n + 1 : n], isfinite(tension) ? tension : 0.0f);
+                 line->position[n < nodes - 1 ? n + 1 : n], isfinite(tension) ? tension : 0.0f,
+                 mark_of(line, tension));
     }
     return 2 * nodes;
 }
 
-/// A post on the bed: a short upright ribbon, drawn wide; the tension -1 means plain dark.
-static int anchor_vertices(const LineSnapshot *line, double size, LineVertex *out)
+/// A post at a node: a short upright ribbon, drawn wide; the tension -1 means plain dark.
+static int post_vertices(const LineSnapshot *line, int node, double size, LineVertex *out)
 {
-    if (line->node_count < 2 || !finite_point(line->position[0])) return 0;
-    const float *foot = line->position[0];
+    if (line->node_count < 2 || node < 0 || !finite_point(line->position[node])) return 0;
+    const float *foot = line->position[node];
     const float low[3] = {foot[0], foot[1], foot[2] - (float)size};
     const float top[3] = {foot[0], foot[1], foot[2] + (float)size};
-    put_pair(out, low, low, top, -1.0f);
-    put_pair(out + 2, low, top, top, -1.0f);
+    put_pair(out, low, low, top, -1.0f, MARK_WORKING);
+    put_pair(out + 2, low, top, top, -1.0f, MARK_WORKING);
     return 4;
 }
 
@@ -100,8 +116,8 @@ static int tank_vertices(const Frame *frame, LineVertex *out)
             ends[end][u] = edge & 1 ? high[u] : low[u];
             ends[end][v] = edge & 2 ? high[v] : low[v];
         }
-        put_pair(out + 4 * edge, ends[0], ends[0], ends[1], -2.0f);
-        put_pair(out + 4 * edge + 2, ends[0], ends[1], ends[1], -2.0f);
+        put_pair(out + 4 * edge, ends[0], ends[0], ends[1], -2.0f, MARK_WORKING);
+        put_pair(out + 4 * edge + 2, ends[0], ends[1], ends[1], -2.0f, MARK_WORKING);
     }
     return 4 * TANK_EDGES;
 }
@@ -135,7 +151,7 @@ bool lines_draw(Lines *lines, const Gl *gl, const Frame *frame, double veil, Err
     const Snapshot *snapshot = frame->snapshot;
     size_t room = 4 * TANK_EDGES;
     for (int l = 0; l < snapshot->line_count; l++)
-        room += 2 * (size_t)maxd(snapshot->lines[l].node_count, 0) + 4;
+        room += 2 * (size_t)maxd(snapshot->lines[l].node_count, 0) + 8;
     Batch batch = {scratch_need(&lines->vertices, room * sizeof *batch.vertices, error),
                    scratch_need(&lines->indices, room * 3 * sizeof *batch.indices, error), 0, 0};
     TRY(batch.vertices && batch.indices);
@@ -151,8 +167,12 @@ bool lines_draw(Lines *lines, const Gl *gl, const Frame *frame, double veil, Err
     }
     int anchors = batch.index_count;
     for (int l = 0; l < snapshot->line_count; l++)
-        close_strip(&batch, anchor_vertices(&snapshot->lines[l], anchor,
-                                            batch.vertices + batch.vertex_count));
+        close_strip(&batch, post_vertices(&snapshot->lines[l], 0, anchor,
+                                          batch.vertices + batch.vertex_count));
+    int lift_offs = batch.index_count;
+    for (int l = 0; l < snapshot->line_count; l++)
+        close_strip(&batch, post_vertices(&snapshot->lines[l], snapshot->lines[l].lift_off,
+                                          0.5 * anchor, batch.vertices + batch.vertex_count));
     if (!batch.index_count) return true;
     gl_mesh_vertices(gl, &lines->mesh, batch.vertices,
                      (size_t)batch.vertex_count * sizeof *batch.vertices);
@@ -160,13 +180,15 @@ bool lines_draw(Lines *lines, const Gl *gl, const Frame *frame, double veil, Err
 
     const double pixels = least_half_width * frame->block.target.y / 540.0;
     gl->UseProgram(lines->program);
+    gl->Uniform4f(lines->slack, SLACK_COLOUR[0], SLACK_COLOUR[1], SLACK_COLOUR[2], 1.0f);
     gl->BindVertexArray(lines->mesh.array);
     gl->Enable(GL_BLEND);
     gl->DepthMask(GL_FALSE);
     draw_stretch(lines, gl, 0, begin, 0.0, 0.4 * pixels, 0.0);
     for (int l = 0; l < snapshot->line_count; begin = ends[l++])
         draw_stretch(lines, gl, begin, ends[l], 0.5 * snapshot->lines[l].diameter, pixels, veil);
-    draw_stretch(lines, gl, anchors, batch.index_count, 0.6 * anchor, 2.0 * pixels, veil);
+    draw_stretch(lines, gl, anchors, lift_offs, 0.6 * anchor, 2.0 * pixels, veil);
+    draw_stretch(lines, gl, lift_offs, batch.index_count, 0.3 * anchor, 1.3 * pixels, veil);
     gl->DepthMask(GL_TRUE);
     gl->Disable(GL_BLEND);
     return true;

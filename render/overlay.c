@@ -5,7 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { QUADS_MAX = 1200, BAR_STEPS = 48 };
+enum { QUADS_MAX = 1600, BAR_STEPS = 48, LINES_TOLD = 6 };
+
+/// A snap stands beside its line for this long [simulated s].
+static const double SNAP_TOLD = 1.0;
 
 typedef struct OverlayVertex {
     float x, y, u, v, colour[4];
@@ -189,6 +192,45 @@ static double put_bar(Sheet *sheet, const Scale *scale, ColourMap map, double ri
     return y + height + 1.2 * em;
 }
 
+/// What the tension's colours do not say: slack stretches, and those near their line's largest.
+static void put_line_key(Sheet *sheet, double right, double y)
+{
+    const double em = sheet->em;
+    float thick[4] = {0, 0, 0, 1},
+          slack[4] = {SLACK_COLOUR[0], SLACK_COLOUR[1], SLACK_COLOUR[2], 1};
+    double rgb[3];
+    colour_map(MAP_TENSION, 0.7, rgb);
+    for (int k = 0; k < 3; k++)
+        thick[k] = (float)rgb[k];
+    const char *const words[2] = {"slack", "near its largest"};
+    for (int row = 0; row < 2; row++, y += 1.3 * em) {
+        double left = right - put_text(sheet, 0, 0, words[row], false);
+        double height = row ? 0.42 * em : 0.2 * em;
+        put_text(sheet, left, y + 0.36 * em, words[row], true);
+        put_area(sheet, left - 1.9 * em, y - 0.5 * height, 1.4 * em, height, row ? thick : slack,
+                 row ? thick : slack);
+    }
+}
+
+/// Tension now at the fairlead, largest so far, length on the bed; of the first lines only.
+static void put_line_words(Sheet *sheet, const Snapshot *snapshot, double y)
+{
+    const double em = sheet->em;
+    for (int l = 0; l < snapshot->line_count && l < LINES_TOLD; l++, y += 1.35 * em) {
+        const LineSnapshot *line = &snapshot->lines[l];
+        if (!line->name || line->node_count < 2) continue;
+        char text[160], name[SCENE_NAME_SIZE];
+        snprintf(name, sizeof name, "%s", line->name);
+        for (char *c = name; *c; c++)
+            if (*c == '_') *c = ' ';
+        bool snap = snapshot->time - line->snap_time < SNAP_TOLD;
+        snprintf(text, sizeof text, "%s  %.4g N   largest %.4g N   on the bed %.3g m%s", name,
+                 (double)line->tension[line->node_count - 2], line->largest, line->touchdown,
+                 snap ? "   SNAP" : "");
+        put_text(sheet, 1.1 * em, y, text, true);
+    }
+}
+
 static void put_sea(Sheet *sheet, double x, double y, const char *before, const WaveTarget *wave)
 {
     char text[128], number[2][32];
@@ -205,10 +247,16 @@ static void put_words(Sheet *sheet, const Snapshot *snapshot)
     char text[128];
     snprintf(text, sizeof text, "t = %.2f s", snapshot->time);
     put_text(sheet, margin, margin + em, text, true);
-    if (!snapshot->has_waves) return;
-    put_sea(sheet, margin, margin + 2.5 * em, "", &snapshot->wave_now);
-    if (snapshot->wave_changing)
-        put_sea(sheet, margin, margin + 4.0 * em, "\xE2\x86\x92 ", &snapshot->wave_asked);
+    double y = margin + 2.5 * em;
+    if (snapshot->has_waves) {
+        put_sea(sheet, margin, y, "", &snapshot->wave_now);
+        y += 1.5 * em;
+        if (snapshot->wave_changing) {
+            put_sea(sheet, margin, y, "\xE2\x86\x92 ", &snapshot->wave_asked);
+            y += 1.5 * em;
+        }
+    }
+    put_line_words(sheet, snapshot, y);
 }
 
 bool overlay_draw(Overlay *overlay, const Gl *gl, const Frame *frame, Error *error)
@@ -227,8 +275,10 @@ bool overlay_draw(Overlay *overlay, const Gl *gl, const Frame *frame, Error *err
         y = put_bar(&sheet, &frame->field_scale,
                     frame->field == FIELD_ELEVATION ? MAP_DIVERGING : MAP_SEQUENTIAL, right, y,
                     height);
-    if (frame->tension_scale.shown)
-        put_bar(&sheet, &frame->tension_scale, MAP_TENSION, right, y, height);
+    if (frame->tension_scale.shown) {
+        y = put_bar(&sheet, &frame->tension_scale, MAP_TENSION, right, y, height);
+        put_line_key(&sheet, right, y);
+    }
 
     gl_mesh_vertices(gl, &overlay->mesh, sheet.vertices,
                      (size_t)sheet.quad_count * 4 * sizeof(OverlayVertex));

@@ -52,7 +52,7 @@ bool crease_normals(const TriangleMesh *mesh, double crease, float *out, Error *
 /// Mooring lines and their anchors (lines.c).
 typedef struct Lines {
     GLuint program;
-    GLint size;
+    GLint size, slack;
     Mesh mesh;
     Scratch vertices, indices;
 } Lines;

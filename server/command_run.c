@@ -33,6 +33,7 @@ typedef struct Run {
     ViewOptions view;
     int frame_count;
     int recoveries;
+    int64_t line_events; ///< told so far
     double wall;
 } Run;
 
@@ -121,6 +122,18 @@ static bool journal_health(Run *run, const char *message, Error *error)
     return recorder_journal(&run->recorder, line, error);
 }
 
+static bool journal_line_events(Run *run, Error *error)
+{
+    const LineEvent *event;
+    if (!run->state->events) return true;
+    while ((event = line_events_next(run->state->events, &run->line_events))) {
+        char line[1024];
+        journal_format_line(run->prepared.scene, event, line, sizeof line);
+        TRY(recorder_journal(&run->recorder, line, error));
+    }
+    return true;
+}
+
 static bool run_setup(Run *run, Error *error)
 {
     const RunOptions *options = run->options;
@@ -162,7 +175,7 @@ static bool run_loop(Run *run, RunExit *how, Error *error)
             run->recoveries = run->state->health.recoveries;
             good = journal_health(run, run->state->health.message, error);
         }
-        good = good && record(run, error);
+        good = good && journal_line_events(run, error) && record(run, error);
         progress_update(&progress, run->state->time, run->state->step);
     }
     run->wall = clock_seconds() - progress.began_at;

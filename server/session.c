@@ -46,6 +46,7 @@ struct Session {
     State *state; ///< NULL when a reset failed
     RunState run_state;
     int recoveries;
+    int64_t line_events; ///< told so far
     char failure[768];
     SampleClock clock;
     double *row;
@@ -237,6 +238,7 @@ static void begin_run(Session *session)
 {
     session->clock = (SampleClock){.interval = session->scene->outputs.series_interval};
     session->recoveries = session->state->health.recoveries;
+    session->line_events = 0;
     session->failure[0] = 0;
     session->speed = session->particle_steps_per_second = 0;
     session->share_count = 0;
@@ -350,6 +352,20 @@ static void answer_requests(Session *session)
 
 // ---- the thread ---------------------------------------------------------------------------------
 
+/// Snaps and breaks of lines since the last look.
+static void tell_line_events(Session *session)
+{
+    const LineEvent *event;
+    if (!session->state->events) return;
+    while ((event = line_events_next(session->state->events, &session->line_events))) {
+        char line[1024], text[200];
+        journal_format_line(session->scene, event, line, sizeof line);
+        journal(session, line);
+        line_event_describe(session->scene, event, text, sizeof text);
+        history_add_marker(session->history, event->time, text);
+    }
+}
+
 static void step(Session *session)
 {
     State *state = session->state;
@@ -366,6 +382,7 @@ static void step(Session *session)
         snprintf(text, sizeof text, "rolled back: %.180s", state->health.message);
         history_add_marker(session->history, state->time, text);
     }
+    tell_line_events(session);
     take_sample(session);
 }
 

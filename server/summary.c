@@ -38,6 +38,22 @@ static void write_effects(Json *json, const SummaryInfo *info)
     json_array_end(json);
 }
 
+static void write_lines(Json *json, const SummaryInfo *info)
+{
+    const Scene *scene = info->scene;
+    json_array(json, "lines");
+    for (int i = 0; i < scene->line_count; i++) {
+        const LineWatch *watch = &info->state->watches[i];
+        json_object(json, NULL);
+        json_string(json, "name", scene->lines[i].name);
+        json_number(json, "tension_at_rest_n", watch->rest);
+        json_number(json, "largest_tension_n", info->state->lines[i].largest_tension);
+        json_integer(json, "snaps", watch->snaps);
+        json_object_end(json);
+    }
+    json_array_end(json);
+}
+
 void summary_format(Text *text, const SummaryInfo *info)
 {
     static const char *const reasons[] = {"until reached", "interrupted", "physics", "error"};
@@ -71,6 +87,7 @@ void summary_format(Text *text, const SummaryInfo *info)
     json_number(&json, "largest_density_error", state->largest_density_error);
     write_health(&json, info);
     write_effects(&json, info);
+    write_lines(&json, info);
     json_integer(&json, "frames", info->frame_count);
     json_string(&json, "exit", reasons[info->how]);
     json_string(&json, "exit_message", info->message);

@@ -2,10 +2,12 @@ in float across;
 in float pull;
 in float half_width;
 in float sunk;
+in float mark;
 out vec4 colour;
 
 uniform sampler2D maps;
 uniform vec4 size;
+uniform vec4 slack; // colour of a slack stretch
 
 void main()
 {
@@ -13,6 +15,7 @@ void main()
     if (cover < 0.05) discard;
     float at = clamp((pull - tension.x) / (tension.y - tension.x), 0.0, 1.0);
     vec3 base = texture(maps, vec2(at * 0.996 + 0.002, tension.z)).rgb;
+    base = mix(base, slack.rgb, step(0.5, mark) * step(mark, 1.5));
     if (pull < -0.5) base = vec3(0.16, 0.17, 0.19); // an anchor
     if (pull < -1.5) { // an edge of the tank
         colour = vec4(mix(grid_colour.rgb, backdrop_top.rgb, 0.3), 0.6 * cover);

@@ -2,11 +2,12 @@
 layout(location = 0) in vec3 before;
 layout(location = 1) in vec3 position;
 layout(location = 2) in vec3 after;
-layout(location = 3) in vec2 edge; // -1 or 1 across; tension [N]
+layout(location = 3) in vec3 edge; // -1 or 1 across; tension [N]; 0 working, 1 slack, 2 near its largest
 out float across;
 out float pull;
 out float half_width;
 out float sunk;
+out float mark;
 
 uniform vec4 size; // radius [m]; least half width [pixel]; veil of the water, 0..1
 
@@ -18,10 +19,11 @@ void main()
     vec2 along = pixel(clip_from_world * vec4(after, 1.0)) - pixel(clip_from_world * vec4(before, 1.0));
     along = length(along) > 1e-3 ? normalize(along) : vec2(1.0, 0.0);
     float radius = size.x * 0.5 * target.y / (forward.w * max(centre.w, 1e-4));
-    half_width = max(radius, size.y);
+    half_width = max(radius, size.y) * (1.0 + 0.8 * clamp(edge.z - 1.0, 0.0, 1.0));
     float grown = half_width + 0.8;
     across = edge.x * grown;
     pull = edge.y;
+    mark = edge.z;
     sunk = box_max.z - position.z;
     // Towards the eye by a few widths, so that a line on the bed is not half sunk in it.
     float width = half_width * 2.0 * forward.w * centre.w * target.w;

@@ -165,6 +165,10 @@ bool state_create(const Scene *scene, const Plan *plan, State **state, Error *er
 {
     *state = calloc(1, sizeof **state);
     if (!*state) return error_set(error, ERROR_SYSTEM, "no memory");
+    static LineWatch watch;
+    static Line line;
+    (*state)->watches = &watch;
+    (*state)->lines = &line;
     (*state)->time_step = plan->time_step;
     (*state)->smallest_step = (*state)->largest_step = plan->time_step;
     (*state)->waves.asked = scene->waves.initial;
@@ -303,6 +307,17 @@ void journal_format_command(double time, const WaveTarget *asked, char *text, in
         "{\"event\":\"command\",\"time_s\":%.9g,\"wave\":{\"height_m\":%.17g,\"period_s\":%.17g,"
         "\"heading_deg\":%.17g}}",
         time, asked->height, asked->period, asked->heading * 180 / PI);
+}
+
+/// The pretended lines never snap.
+const LineEvent *line_events_next(const LineEvents *events, int64_t *seen) { return NULL; }
+void journal_format_line(const Scene *scene, const LineEvent *event, char *text, int size)
+{
+    *text = 0;
+}
+void line_event_describe(const Scene *scene, const LineEvent *event, char *text, int size)
+{
+    *text = 0;
 }
 
 void journal_format_health(double time, const char *message, char *text, int size)

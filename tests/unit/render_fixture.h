@@ -105,7 +105,13 @@ static inline void fixture_line(Fixture *fixture)
         fixture->tension[n] = (float)(6.0 + 22.0 * rise);
     }
     snapshot->line_count = 1;
-    snapshot->lines[0] = (LineSnapshot){FIXTURE_NODES, fixture->nodes, fixture->tension, 0.0115};
+    snapshot->lines[0] = (LineSnapshot){.node_count = FIXTURE_NODES,
+                                        .position = fixture->nodes,
+                                        .tension = fixture->tension,
+                                        .diameter = 0.0115,
+                                        .name = "bow_line",
+                                        .snap_time = -INFINITY,
+                                        .lift_off = -1};
 }
 
 /// Is a point inside the ship, with a spacing's half of clearance?

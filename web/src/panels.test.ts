@@ -12,12 +12,12 @@ test("a moored ship has panels for motions, tension, elevation and force", () =>
   const shown = panelsOf(SHIP).filter((panel) => panel.shown);
   assert.deepEqual(
     shown.map(({ title, unit }) => `${title} [${unit}]`),
-    ["Motion [m]", "Rotation [deg]", "Line tension [N]", "Wave elevation [m]", "Water force [N]"],
+    ["Motion [m]", "Rotation [deg]", "Line tension [N]", "Wave elevation [m]", "Water force [N]", "Line on the bed [m]"],
   );
   assert.deepEqual(shown[0]!.traces.map(({ label }) => label), ["surge", "sway", "heave"]);
   assert.deepEqual(shown[2]!.traces.map(({ label, shown: first }) => [label, first]), [
     ["fairlead", true],
-    ["anchor", false],
+    ["anchor", true],
     ["largest", false],
   ]);
   assert.deepEqual(shown[4]!.traces[0], { column: SHIP.indexOf("ship.fluid_fz_n"), label: "vertical", colour: 0, shown: true });
@@ -34,7 +34,7 @@ test("two bodies have panels of their own, two lines share one and are named", (
   const panels = panelsOf(columns);
   assert.deepEqual(panels.slice(0, 2).map(({ title }) => title), ["Motion, barge", "Motion, work boat"]);
   const tension = panels.find(({ id }) => id === "tension")!;
-  assert.deepEqual(tension.traces.slice(0, 2).map(({ label }) => label), ["fore fairlead", "aft fairlead"]);
+  assert.deepEqual(tension.traces.slice(0, 2).map(({ label }) => label), ["fore fairlead", "fore anchor"]);
 });
 
 test("a still tank with a gauge only has one panel", () => {

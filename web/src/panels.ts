@@ -53,13 +53,13 @@ const asIs = (quantity: string): string => quantity;
 const RULES: readonly Rule[] = [
   { id: "translation", title: "Motion", takes: /^(surge|sway|heave)_m$/, perOwner: true, shown: true, first: ANY, shorten: asIs },
   { id: "rotation", title: "Rotation", takes: /^(roll|pitch|yaw)_deg$/, perOwner: true, shown: true, first: ANY, shorten: asIs },
-  { id: "tension", title: "Line tension", takes: /tension_n$/, perOwner: false, shown: true, first: /^fairlead/, shorten: (quantity) => quantity.replace(/_?tension$/, "") },
+  { id: "tension", title: "Line tension", takes: /tension_n$/, perOwner: false, shown: true, first: /^(fairlead|anchor)/, shorten: (quantity) => quantity.replace(/_?tension$/, "") },
   { id: "elevation", title: "Wave elevation", takes: /^elevation_m$/, perOwner: false, shown: true, first: ANY, shorten: () => "" },
   { id: "force", title: "Water force", takes: /^fluid_f[xyz]_n$/, perOwner: true, shown: true, first: /fz/, shorten: forceName },
   { id: "pressure", title: "Pressure", takes: /^pressure_pa$/, perOwner: false, shown: true, first: ANY, shorten: () => "" },
   { id: "energy", title: "Energy", takes: /^.*_j$/, perOwner: true, shown: true, first: ANY, shorten: asIs },
   { id: "moment", title: "Water moment", takes: /^fluid_m[xyz]_nm$/, perOwner: true, shown: false, first: ANY, shorten: (quantity) => quantity.replace("fluid_m", "about ") },
-  { id: "touchdown", title: "Line on the bed", takes: /^touchdown_m$/, perOwner: false, shown: false, first: ANY, shorten: () => "" },
+  { id: "touchdown", title: "Line on the bed", takes: /^touchdown_m$/, perOwner: false, shown: true, first: ANY, shorten: () => "" },
 ];
 
 function forceName(quantity: string): string {

@@ -155,7 +155,8 @@ export class Session {
         this.rowsSeen.value++;
         return;
       case "marker":
-        this.marks.value = [...this.marks.value, { time_s: message.time_s, text: message.text }];
+        // a snap is told when its peak is over: its mark may lie before the last one
+        this.marks.value = [...this.marks.value, { time_s: message.time_s, text: message.text }].sort((a, b) => a.time_s - b.time_s);
         return;
       case "accepted":
         if (message.id === this.lastWaveId) this.waveAccepted = true;
