@@ -12,25 +12,6 @@ static double body_energy(const Body *body, double gravity)
     return 0.5 * twice + body->mass * gravity * body->position.z;
 }
 
-/// Nodes carry half of each of their segments; a slack segment stores nothing.
-static double line_energy(const Line *line, const Fluid *fluid)
-{
-    const LineScene *s = line->scene;
-    double l = line->segment_length, mass = s->mass_per_length * l;
-    double area = 0.25 * PI * s->diameter * s->diameter;
-    double weight = (s->mass_per_length - fluid->density * area) * l * fluid->gravity;
-    double energy = 0;
-    for (int n = 0; n < line->node_count; n++) {
-        double share = n == 0 || n == line->node_count - 1 ? 0.5 : 1;
-        energy += share * (0.5 * mass * vec3_dot(line->velocity[n], line->velocity[n]) +
-                           weight * line->position[n].z);
-        if (!n) continue;
-        double stretch = vec3_norm(vec3_sub(line->position[n], line->position[n - 1])) - l;
-        if (stretch > 0) energy += 0.5 * s->axial_stiffness / l * stretch * stretch;
-    }
-    return energy;
-}
-
 EnergyLevels energy_levels(const Scene *scene, const State *state)
 {
     FluidEnergy fluid = state->backend->energy(state->particles);
@@ -38,7 +19,7 @@ EnergyLevels energy_levels(const Scene *scene, const State *state)
     for (int b = 0; b < scene->body_count; b++)
         levels.bodies += body_energy(&state->bodies[b], scene->fluid.gravity);
     for (int l = 0; l < scene->line_count; l++)
-        levels.lines += line_energy(&state->lines[l], &scene->fluid);
+        levels.lines += line_energy(&state->lines[l]);
     return levels;
 }
 

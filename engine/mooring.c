@@ -5,58 +5,6 @@
 
 #include "mooring_internal.h"
 
-/// Bed damping reaches its full value at this penetration, in diameters. A switch without a ramp
-/// leaves implicit steps without a solution; a chain at rest lies about 0.02 d deep.
-static const double BED_RAMP_DIAMETERS = 0.05;
-/// Slip speed that tells sticking from sliding [m/s]; small against any dragging of interest.
-static const double FRICTION_SPEED = 1e-3;
-/// Explicit sub-steps stay this far below the smallest of the limits.
-static const double STEP_SAFETY = 0.9;
-/// A slack line that snaps taut over and over stays bounded below this many l/c (measured: 0.52).
-static const double SLACK_LIMIT = 0.5;
-
-LineConstants line_constants(const LineScene *scene, const WaterField *water)
-{
-    LineConstants c;
-    double l = scene->length / scene->segments, d = scene->diameter;
-    double displaced = water->density * PI / 4 * d * d * l;
-    c.length = l;
-    c.stiffness = scene->axial_stiffness / l;
-    c.damping = scene->damping_ratio * sqrt(scene->axial_stiffness * scene->mass_per_length);
-    c.mass = scene->mass_per_length * l;
-    c.weight = c.mass * water->gravity;
-    c.buoyancy = displaced * water->gravity;
-    c.water_mass = displaced;
-    c.added_normal = displaced * scene->added_normal;
-    c.added_tangential = displaced * scene->added_tangential;
-    c.drag_normal = 0.5 * water->density * d * l * scene->drag_normal;
-    c.drag_tangential = 0.5 * water->density * PI * d * l * scene->drag_tangential;
-    c.radius = d / 2;
-    c.bed = water->bed;
-    c.bed_stiffness = scene->bed_stiffness * d * l;
-    c.bed_damping = scene->bed_damping * d * l;
-    c.bed_ramp = BED_RAMP_DIAMETERS * d;
-    c.bed_friction = scene->bed_friction;
-    c.friction_speed = FRICTION_SPEED;
-    c.friction_cap = INFINITY;
-    return c;
-}
-
-/// Smallest of the explicit limits [s]: taut and slack segments (omega = 2 c/l) and the bed, in
-/// air, where nodes are lightest.
-static double explicit_limit(const LineConstants *c)
-{
-    double travel = sqrt(c->mass / c->stiffness); // l / c
-    double zeta = c->damping / sqrt(c->stiffness * c->mass);
-    double limit = travel * mind(0.5 * line_midpoint_limit(zeta), SLACK_LIMIT);
-    if (c->bed_stiffness > 0) {
-        double omega = sqrt(c->bed_stiffness / c->mass);
-        double bed_zeta = c->bed_damping / (2 * c->mass * omega);
-        limit = mind(limit, line_midpoint_limit(bed_zeta) / omega);
-    }
-    return STEP_SAFETY * limit;
-}
-
 static bool take_doubles(Arena *arena, double **array, int count, const char *what, Error *error)
 {
     *array = arena_take(arena, (size_t)count, sizeof **array, what, error);
@@ -94,14 +42,15 @@ static bool take_workspace(Arena *arena, LineWork *work, int n, const char *what
 }
 
 /// Length on the bed [m]: the part of each segment whose centre line is at or below it.
-static double touchdown_length(const Line *line, double bed)
+static double touchdown_length(const Line *line)
 {
+    const LineMakeup *makeup = &((LineWork *)line->workspace)->makeup;
     double length = 0;
     for (int i = 0; i + 1 < line->node_count; i++) {
-        double a = line->position[i].z - bed, b = line->position[i + 1].z - bed;
+        double a = line->position[i].z - makeup->bed, b = line->position[i + 1].z - makeup->bed;
         double low = mind(a, b), high = maxd(a, b);
         double share = high <= 0 ? 1 : low > 0 ? 0 : -low / (high - low);
-        length += share * line->segment_length;
+        length += share * makeup->segment[i]->length;
     }
     return length;
 }
@@ -127,7 +76,7 @@ static void line_settle(Line *line, const WaterField *water)
         line->largest_tension = maxd(line->largest_tension, line->tension[i]);
     line->anchor_force = vec3(work->fx[0], work->fy[0], work->fz[0]);
     line->fairlead_force = vec3(work->fx[last], work->fy[last], work->fz[last]);
-    line->touchdown = touchdown_length(line, work->constants.bed);
+    line->touchdown = touchdown_length(line);
 }
 
 bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const WaterField *water,
@@ -137,7 +86,6 @@ bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const Water
     memset(line, 0, sizeof *line);
     line->scene = scene;
     line->node_count = n;
-    line->segment_length = scene->length / scene->segments;
     line->stepper = LINE_STEPPER_BDF2;
     line->position = arena_take(arena, (size_t)n, sizeof(Vec3), where, error);
     line->velocity = arena_take(arena, (size_t)n, sizeof(Vec3), where, error);
@@ -151,10 +99,10 @@ bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const Water
 
     line->workspace = work;
     TRY(line_bdf2_create(line, arena, where, error));
-    work->constants = line_constants(scene, water);
+    TRY(makeup_create(scene, water, where, arena, &work->makeup, error));
     work->node_count = n;
-    line->step_limit = explicit_limit(&work->constants);
-    work->constants.friction_cap = work->constants.mass / line->step_limit;
+    line->step_limit = work->makeup.step_limit;
+    line->sound_speed = work->makeup.sound_speed;
     for (int i = 0; i < n; i++) {
         bool end = i == 0 || i == n - 1;
         work->share[i] = end ? 0.5 : 1;
@@ -244,8 +192,8 @@ Vec3 line_end_direction(const LineWork *work, const Vec3 *x, int node, int inner
     const double *elevation = work->water_now[6];
     Vec3 d = vec3_sub(x[inner], x[node]);
     double size = vec3_norm(d);
-    *wet = 0.5 * line_wet_fraction(elevation[node] - x[node].z, elevation[inner] - x[inner].z,
-                                   work->constants.radius);
+    *wet = line_wet_fraction(elevation[node] - x[node].z, elevation[inner] - x[inner].z,
+                             work->makeup.segment[node < inner ? node : inner]->radius);
     return vec3_scale(d, size > 0 ? 1 / size : 0);
 }
 
@@ -258,8 +206,9 @@ static Vec3 end_pull(const Line *line, int node, int inner, Vec3 impulse, const 
     double wet;
     Vec3 q = line_end_direction(work, line->position, node, inner, &wet);
     Vec3 gained = vec3_sub(path->velocity[1], path->velocity[0]);
-    Vec3 kept = line_inertia(line_mass_normal(&work->constants, 0.5, wet),
-                             line_mass_tangential(&work->constants, 0.5, wet), q, gained);
+    const LineConstants *c = work->makeup.node[node];
+    Vec3 kept =
+        line_inertia(line_mass_normal(c, 1, wet), line_mass_tangential(c, 1, wet), q, gained);
     return vec3_scale(vec3_sub(impulse, kept), 1 / duration);
 }
 
@@ -315,8 +264,7 @@ static bool report_sickness(const Line *line, int sick, double time, Error *erro
                      line->scene->name, sick, time, x.x, x.y, x.z, v.x, v.y, v.z,
                      explicit_step ? "finite and slower than sound in the line"
                                    : "an implicit step that has a solution; sound in the line",
-                     sqrt(line->scene->axial_stiffness / line->scene->mass_per_length),
-                     line->step_limit);
+                     line->sound_speed, line->step_limit);
 }
 
 bool line_advance(Line *line, const WaterField *water, double time, double duration,
@@ -332,10 +280,26 @@ bool line_advance(Line *line, const WaterField *water, double time, double durat
     int sick = line->stepper == LINE_STEPPER_RK2 ? advance_rk2(line, &span, &sick_time)
                                                  : line_step_bdf2(line, &span, &sick_time);
     if (sick >= 0) return report_sickness(line, sick, sick_time, error);
-    line->touchdown = touchdown_length(line, work->constants.bed);
+    line->touchdown = touchdown_length(line);
     line->anchor_force = end_pull(line, 0, 1, work->end_force[0], anchor, duration);
     line->fairlead_force = end_pull(line, last, last - 1, work->end_force[1], fairlead, duration);
     return true;
+}
+
+double line_energy(const Line *line)
+{
+    const LineMakeup *makeup = &((LineWork *)line->workspace)->makeup;
+    double energy = 0;
+    for (int n = 0; n < line->node_count; n++) {
+        const LineConstants *c = makeup->node[n];
+        energy += 0.5 * c->mass * vec3_dot(line->velocity[n], line->velocity[n]) +
+                  (c->weight - c->buoyancy) * line->position[n].z;
+        if (!n) continue;
+        c = makeup->segment[n - 1];
+        double stretch = vec3_norm(vec3_sub(line->position[n], line->position[n - 1])) - c->length;
+        if (stretch > 0) energy += 0.5 * c->stiffness * stretch * stretch;
+    }
+    return energy;
 }
 
 /// A saved line: positions, velocities, tensions, nine numbers, history of the implicit stepper.

@@ -31,17 +31,17 @@ typedef enum LineStepper {
 /// One line with its nodes; node 0 is the anchor end, node `segments` the fairlead end.
 typedef struct Line {
     const LineScene *scene;
-    int node_count;        ///< segments + 1
-    double segment_length; ///< unstretched [m]
-    Vec3 *position;        ///< [node_count][m]
-    Vec3 *velocity;        ///< [node_count][m/s]
-    double *tension;       ///< [segments][N], axial plus internal damping, never negative
+    int node_count;  ///< segments + 1
+    Vec3 *position;  ///< [node_count][m]
+    Vec3 *velocity;  ///< [node_count][m/s]
+    double *tension; ///< [segments][N], axial plus internal damping, never negative
     Vec3
         fairlead_force; ///< the line's pull on what holds its fairlead [N], mean over the last step
     Vec3 anchor_force;  ///< the same at the anchor [N]
     double largest_tension; ///< so far [N]
     double touchdown;       ///< length lying on the bed [m]
     double step_limit;      ///< explicit limit of the sub-step [s]
+    double sound_speed;     ///< in its stiffest piece, sqrt(EA/w) [m/s]
     long substeps;          ///< taken so far
     LineStepper stepper;    ///< set by line_create; may be changed between steps
     void *workspace;        ///< the stepper's own arrays
@@ -79,6 +79,9 @@ typedef struct EndPath {
 /// @return false with ERROR_PHYSICS naming line, node and value when something is not finite
 bool line_advance(Line *line, const WaterField *water, double time, double duration,
                   const EndPath *anchor, const EndPath *fairlead, Error *error);
+
+/// Kinetic, elastic and potential energy of a line, as if all of it were under water [J].
+double line_energy(const Line *line);
 
 /// Doubles needed to save or restore a line's state, and both directions.
 size_t line_state_size(const Line *line);

@@ -27,6 +27,7 @@ static const double SPLIT_FINEST = 1.0 / 4096;
 static const double GROWTH_MAX = 2;
 
 typedef struct Segment {
+    const LineConstants *c;
     Vec3 q;                ///< direction at the iterate
     double s, rate;        ///< length and its rate at the iterate [m], [m/s]
     double across;         ///< geometric stiffness: tension solved for over length [N/m]
@@ -37,8 +38,9 @@ typedef struct Segment {
 } Segment;
 
 typedef struct Contact {
-    double z, rate;      ///< of the node at the iterate
-    double force, slope; ///< of the bed after the move [N], [N/m]
+    const LineConstants *c; ///< of the node
+    double z, rate;         ///< of the node at the iterate
+    double force, slope;    ///< of the bed after the move [N], [N/m]
 } Contact;
 
 typedef struct Implicit {
@@ -122,14 +124,17 @@ static void predict(Line *line, Implicit *im, double h)
 
 static void linearise_segments(const LineWork *work, Implicit *im)
 {
-    const LineConstants *c = &work->constants;
+    const LineMakeup *makeup = &work->makeup;
     const double *elevation = work->water_now[6];
     for (int i = 0; i + 1 < work->node_count; i++) {
+        const LineConstants *c = makeup->segment[i];
         Segment *segment = &im->segments[i];
         Vec3 d = vec3_sub(im->x[i + 1], im->x[i]);
-        double s = vec3_norm(d), inverse = s > 1e-12 * c->length ? 1 / s : 0;
+        double s = vec3_norm(d);
+        double inverse = s > 1e-12 * c->length && c->stiffness > 0 ? 1 / s : 0;
         double depth0 = elevation[i] - im->x[i].z, depth1 = elevation[i + 1] - im->x[i + 1].z;
         bool deep = depth0 > c->radius && depth1 > c->radius;
+        segment->c = c;
         segment->q = vec3_scale(d, inverse);
         segment->s = s;
         segment->rate = vec3_dot(segment->q, vec3_sub(im->v[i + 1], im->v[i]));
@@ -144,12 +149,19 @@ static void linearise_segments(const LineWork *work, Implicit *im)
 /// Everything about a node but tension and bed: force less inertia, and how it falls with place.
 static void linearise_node(const LineWork *work, Implicit *im, int i)
 {
-    const LineConstants *c = &work->constants;
+    const LineConstants *c = work->makeup.node[i];
     const Segment *before = &im->segments[i - 1], *after = &im->segments[i];
     double wet = 0.5 * (before->wet + after->wet), slope = im->rate_slope;
     Vec3 q = vec3_sub(im->x[i + 1], im->x[i - 1]), v = im->v[i];
     double size = vec3_norm(q);
     q = vec3_scale(q, size > 1e-12 * c->length ? 1 / size : 0);
+    SpecialNode special;
+    if (c == &work->makeup.blends[i]) {
+        special = makeup_special_node(&work->makeup, i, &im->x[i - 1], &work->water_now[6][i - 1]);
+        c = &special.sum;
+        q = special.q;
+        wet = 1;
+    }
     double *const *water = work->water_now;
     Vec3 relative = vec3(water[0][i] - v.x, water[1][i] - v.y, water[2][i] - v.z);
     double normal = line_mass_normal(c, 1, wet), tangential = line_mass_tangential(c, 1, wet);
@@ -161,6 +173,7 @@ static void linearise_node(const LineWork *work, Implicit *im, int i)
     force.z += c->buoyancy * wet - c->weight;
 
     Contact *contact = &im->contacts[i];
+    contact->c = work->makeup.node[i];
     contact->z = im->x[i].z;
     contact->rate = v.z;
     contact->force = contact->slope = 0;
@@ -221,41 +234,40 @@ static void assemble(const LineWork *work, Implicit *im)
 }
 
 /// Tension of a segment and force of the bed under a node after a share `t` of the Newton step.
-static double tension_at(const LineConstants *c, const Implicit *im, const Segment *s, double t)
+static double tension_at(const Implicit *im, const Segment *s, double t)
 {
     double longer = s->u + t * s->du;
-    return line_tension(c, s->s + longer, s->rate + im->rate_slope * longer);
+    return line_tension(s->c, s->s + longer, s->rate + im->rate_slope * longer);
 }
 
-static double bed_at(const LineConstants *c, const Implicit *im, int i, double t)
+static double bed_at(const Implicit *im, int i, double t)
 {
     const Contact *contact = &im->contacts[i];
     double rise = im->move[i].z + t * im->step[i].z;
-    return line_bed_force(c, 1, contact->z + rise, contact->rate + im->rate_slope * rise);
+    return line_bed_force(contact->c, 1, contact->z + rise, contact->rate + im->rate_slope * rise);
 }
 
 /// Whether the straight-line formulas held over the whole Newton step, that is: it is solved. Sets
 /// du and what the segments carry then. @return 1 yes, 0 no, -1 not a number
 static int step_holds(const LineWork *work, Implicit *im)
 {
-    const LineConstants *c = &work->constants;
     int last = work->node_count - 1;
     bool holds = true;
     double sum = 0;
     for (int i = 0; i < last; i++) {
         Segment *s = &im->segments[i];
         s->du = vec3_dot(s->q, vec3_sub(im->step[i + 1], im->step[i]));
-        s->reached = tension_at(c, im, s, 1);
+        s->reached = tension_at(im, s, 1);
         double linear = s->tension + s->slope * s->du;
-        holds = holds && fabs(s->reached - linear) <= TENSION_GOAL * (s->reached + c->weight);
+        holds = holds && fabs(s->reached - linear) <= TENSION_GOAL * (s->reached + s->c->weight);
         sum += s->du;
     }
     for (int i = 1; i < last; i++) {
         const Contact *contact = &im->contacts[i];
-        if (contact->z + im->move[i].z + mind(im->step[i].z, 0) > c->bed) continue;
-        double exact = bed_at(c, im, i, 1);
+        if (contact->z + im->move[i].z + mind(im->step[i].z, 0) > contact->c->bed) continue;
+        double exact = bed_at(im, i, 1);
         double linear = contact->force - contact->slope * im->step[i].z;
-        holds = holds && fabs(exact - linear) <= BED_GOAL * (exact + c->weight);
+        holds = holds && fabs(exact - linear) <= BED_GOAL * (exact + contact->c->weight);
     }
     return !isfinite(sum) ? -1 : holds;
 }
@@ -264,7 +276,6 @@ static int step_holds(const LineWork *work, Implicit *im)
 /// pieces.
 static double search_length(const LineWork *work, Implicit *im)
 {
-    const LineConstants *c = &work->constants;
     int last = work->node_count - 1;
     double start = 0, stiff = 0; // step . residual, and step . (linear part) step
     for (int i = 1; i < last; i++)
@@ -279,11 +290,11 @@ static double search_length(const LineWork *work, Implicit *im)
         double work_done = start - t * stiff;
         for (int i = 0; i < last; i++) {
             const Segment *s = &im->segments[i];
-            if (s->du != 0) work_done -= (tension_at(c, im, s, t) - s->tension) * s->du;
+            if (s->du != 0) work_done -= (tension_at(im, s, t) - s->tension) * s->du;
         }
         for (int i = 1; i < last; i++)
             if (im->contacts[i].force > 0 || im->step[i].z < 0)
-                work_done += (bed_at(c, im, i, t) - im->contacts[i].force) * im->step[i].z;
+                work_done += (bed_at(im, i, t) - im->contacts[i].force) * im->step[i].z;
         if (fabs(work_done) <= 0.1 * start) return t;
         if (work_done > 0)
             low = t;
@@ -298,22 +309,21 @@ static double search_length(const LineWork *work, Implicit *im)
 /// Go a share `t` of the Newton step and see what segments and bed do there.
 static void go_along(const LineWork *work, Implicit *im, double t)
 {
-    const LineConstants *c = &work->constants;
     int last = work->node_count - 1;
     for (int i = 0; i < last; i++) {
         Segment *s = &im->segments[i];
-        s->tension = t == 1 ? s->reached : tension_at(c, im, s, t);
+        s->tension = t == 1 ? s->reached : tension_at(im, s, t);
         s->u += t * s->du;
         s->slope =
-            line_tension_slope(c, s->s + s->u, s->rate + im->rate_slope * s->u, im->rate_slope);
+            line_tension_slope(s->c, s->s + s->u, s->rate + im->rate_slope * s->u, im->rate_slope);
     }
     for (int i = 1; i < last; i++) {
         Contact *contact = &im->contacts[i];
         im->move[i] = vec3_mad(im->move[i], im->step[i], t);
         double z = contact->z + im->move[i].z;
         double rate = contact->rate + im->rate_slope * im->move[i].z;
-        contact->force = line_bed_force(c, 1, z, rate);
-        contact->slope = line_bed_slope(c, 1, z, rate, im->rate_slope);
+        contact->force = line_bed_force(contact->c, 1, z, rate);
+        contact->slope = line_bed_slope(contact->c, 1, z, rate, im->rate_slope);
     }
 }
 
@@ -343,20 +353,20 @@ static bool solve_directions(const LineWork *work, Implicit *im)
 /// Take the move. @return 1 when the directions were right enough, 0 when not, -1: not a number
 static int take_move(const LineWork *work, Implicit *im)
 {
-    const LineConstants *c = &work->constants;
     int last = work->node_count - 1;
     bool right = true;
-    double sum = 0, short_length = 0.1 * c->length, length2 = c->length * c->length;
+    double sum = 0;
     for (int i = 0; i < last; i++) {
         const Segment *s = &im->segments[i];
+        const LineConstants *c = s->c;
         Vec3 turned = vec3_mad(vec3_sub(im->move[i + 1], im->move[i]), s->q, -s->u);
         double turn2 = vec3_dot(turned, turned), scale = s->tension + c->weight;
         // a turn by d lengthens the segment by d^2/(2 s) and swings a changed tension by d/s
-        double longer = 0.5 * turn2 / maxd(s->s, short_length);
+        double longer = 0.5 * turn2 / maxd(s->s, 0.1 * c->length);
         bool slack = s->s + s->u + longer < c->length;
         double change = s->tension - im->tension[i], allowed = TURNING_GOAL * scale;
         right = right && (slack || c->stiffness * longer <= GEOMETRY_GOAL * scale) &&
-                change * change * turn2 <= allowed * allowed * length2;
+                change * change * turn2 <= allowed * allowed * c->length * c->length;
         im->tension[i] = s->tension;
         sum += turn2 + s->tension;
     }
@@ -398,7 +408,7 @@ static bool implicit_step(Line *line, const LineSpan *span, double done, double 
 static Vec3 end_load(const LineWork *work, const Vec3 *x, const Vec3 *v, const double *tension,
                      int node, int inner)
 {
-    const LineConstants *c = &work->constants;
+    const LineConstants *c = work->makeup.node[node];
     double *const *water = work->water_now;
     double wet;
     Vec3 q = line_end_direction(work, x, node, inner, &wet);
@@ -407,7 +417,7 @@ static Vec3 end_load(const LineWork *work, const Vec3 *x, const Vec3 *v, const d
     Vec3 force = vec3_scale(q, tension[node < inner ? node : inner]);
     force = vec3_add(force, line_drag(c, wet, q, relative));
     force = vec3_add(force, line_water_inertia(c, wet, q, acceleration));
-    force.z += c->buoyancy * wet - 0.5 * c->weight;
+    force.z += c->buoyancy * wet - c->weight;
     return force;
 }
 

@@ -2,8 +2,7 @@
 #ifndef FAIRLEAD_MOORING_INTERNAL_H
 #define FAIRLEAD_MOORING_INTERNAL_H
 
-#include "mooring.h"
-#include "physics/line.h"
+#include "mooring_makeup.h"
 
 /// Positions and velocities of all nodes, one array per component [node_count].
 typedef struct LineNodes {
@@ -14,7 +13,7 @@ typedef struct LineNodes {
 /// A line's workspace. Arrays of segments have a ghost at either end (segment s is at [s + 1]) that
 /// has no length, tension or water, so that end nodes need no special case.
 typedef struct LineWork {
-    LineConstants constants;
+    LineMakeup makeup;
     int node_count;
     LineNodes now;        ///< the state while stepping
     LineNodes middle;     ///< the stage in the middle of a step
@@ -48,9 +47,6 @@ typedef struct LineSpan {
 Vec3 end_path_position(const EndPath *path, double duration, double fraction);
 Vec3 end_path_velocity(const EndPath *path, double duration, double fraction);
 
-/// Constants of one segment from the case and the water.
-LineConstants line_constants(const LineScene *scene, const WaterField *water);
-
 /// Set `water_now` to `fraction` between the two samples of this call.
 void line_water_at(LineWork *work, double fraction);
 
@@ -74,7 +70,7 @@ int line_step_bdf2(Line *line, const LineSpan *span, double *sick_time);
 /// The state was changed by others: the next implicit step starts afresh.
 void line_bdf2_forget(Line *line);
 
-/// Direction from an end node to its inner neighbour and the wet length of its half segment.
+/// Direction from an end node to its inner neighbour and the wet share of its half segment.
 Vec3 line_end_direction(const LineWork *work, const Vec3 *x, int node, int inner, double *wet);
 
 /// Move free nodes to the equilibrium of the lumped line: the minimum of its (convex) energy, found

@@ -12,7 +12,7 @@ static const double RELAX_GOAL = 1e-9;
 static const double RELAX_ACCEPT = 0.02;
 
 typedef struct Relaxation {
-    LineConstants constants;
+    LineMakeup makeup;
     double level;
     int last;        ///< index of the fairlead node
     Vec3 *trial;     ///< nodes tried along a step [last + 1]
@@ -25,17 +25,18 @@ typedef struct Relaxation {
 /// Forces on the nodes at rest; the ends get theirs without the bed. With `stiff`, also the blocks.
 static void relax_forces(Relaxation *r, const Vec3 *nodes, bool stiff)
 {
-    const LineConstants *c = &r->constants;
     for (int i = 0; i <= r->last; i++) {
+        const LineConstants *c = r->makeup.node[i];
         bool end = i == 0 || i == r->last;
         double bed = end ? 0 : line_bed_force(c, 1, nodes[i].z, 0);
-        r->force[i] = vec3(0, 0, bed - c->weight * (end ? 0.5 : 1));
+        r->force[i] = vec3(0, 0, bed - c->weight);
         if (!stiff) continue;
         Sym3 zero = {0, 0, 0, 0, 0, 0};
         r->diagonal[i] = zero;
         r->diagonal[i].zz = bed > 0 ? c->bed_stiffness : 0;
     }
     for (int i = 0; i < r->last; i++) {
+        const LineConstants *c = r->makeup.segment[i];
         Vec3 d = vec3_sub(nodes[i + 1], nodes[i]);
         double s = vec3_norm(d);
         Vec3 q = s > 0 ? vec3_scale(d, 1 / s) : vec3(0, 0, 0);
@@ -131,13 +132,13 @@ static bool relax_take(Relaxation *r, int count, Arena *arena, const char *where
 /// What the lumped line says where no closed form holds (it pierces the surface).
 static void relax_statics(const Relaxation *r, const Vec3 *nodes, LineStatics *statics)
 {
-    const LineConstants *c = &r->constants;
     Vec3 anchor = r->force[0], fairlead = r->force[r->last];
     statics->anchor_tension = vec3_norm(anchor);
     statics->fairlead_tension = vec3_norm(fairlead);
     statics->horizontal_force = hypot(fairlead.x, fairlead.y);
     statics->touchdown = statics->stretched_length = 0;
     for (int i = 0; i < r->last; i++) {
+        const LineConstants *c = r->makeup.segment[i];
         double s = vec3_norm(vec3_sub(nodes[i + 1], nodes[i]));
         statics->stretched_length += maxd(s, c->length);
         if (nodes[i].z <= c->bed && nodes[i + 1].z <= c->bed) statics->touchdown += c->length;
@@ -147,20 +148,23 @@ static void relax_statics(const Relaxation *r, const Vec3 *nodes, LineStatics *s
 /// The iteration; `force` is that of `nodes` at return. @return largest force out of balance [N]
 static double relax_iterate(Relaxation *r, Vec3 *nodes)
 {
-    const LineConstants *c = &r->constants;
-    double scale = maxd(c->weight, c->buoyancy) + 1e-12 * c->stiffness * c->length;
-    double extent = 0, residual = INFINITY;
+    double scale = 0, stiffest = 0, length = 0, extent = 0, residual = INFINITY;
+    for (int i = 0; i < r->makeup.run_count; i++) {
+        const LineConstants *c = &r->makeup.runs[i].constants;
+        scale = maxd(scale, maxd(c->weight, c->buoyancy) + 1e-12 * c->stiffness * c->length);
+        stiffest = maxd(stiffest, c->stiffness);
+        length = maxd(length, c->length);
+    }
     for (int i = 0; i <= r->last; i++)
         extent = maxd(extent, vec3_norm(nodes[i]));
-    double goal = RELAX_GOAL * scale + 8e-16 * c->stiffness * extent; // rounding of positions
+    double goal = RELAX_GOAL * scale + 8e-16 * stiffest * extent; // rounding of positions
     for (int k = 0; k < RELAX_ITERATIONS; k++) {
         relax_forces(r, nodes, true);
         residual = relax_residual(r);
         if (!(residual > goal)) break;
         // slack pieces have no stiffness: a softening that fades with the residual holds them
-        double softening = scale / c->length * mind(1e-2, 1e-2 * residual / scale);
-        double work =
-            relax_direction(r, softening + 1e-9 * scale / c->length, 0.5 * c->length * r->last);
+        double softening = scale / length * mind(1e-2, 1e-2 * residual / scale);
+        double work = relax_direction(r, softening + 1e-9 * scale / length, 0.5 * length * r->last);
         double alpha = relax_length(r, nodes, work);
         for (int i = 1; i < r->last; i++)
             nodes[i] = vec3_mad(nodes[i], r->move[i], alpha);
@@ -172,11 +176,11 @@ bool line_relax(const LineScene *scene, const WaterField *water, const char *whe
                 LineStatics *statics, Error *error)
 {
     Relaxation r;
-    r.constants = line_constants(scene, water);
     r.level = water->level;
     r.last = scene->segments;
     Arena arena = arena_create(0);
-    if (!relax_take(&r, scene->segments + 1, &arena, where, error)) {
+    if (!relax_take(&r, scene->segments + 1, &arena, where, error) ||
+        !makeup_create(scene, water, where, &arena, &r.makeup, error)) {
         arena_destroy(&arena);
         return false;
     }

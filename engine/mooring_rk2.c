@@ -14,9 +14,9 @@
 /// Nodes are examined for sickness every so many sub-steps.
 enum { SICKNESS_INTERVAL = 16 };
 
-WIDE void line_segments(LineWork *work, const LineNodes *nodes)
+WIDE static void run_segments(LineWork *work, const LineNodes *nodes, const LineRun *run)
 {
-    const LineConstants c = work->constants;
+    const LineConstants c = run->constants;
     const double *restrict x = nodes->x, *restrict y = nodes->y, *restrict z = nodes->z;
     const double *restrict u = nodes->u, *restrict v = nodes->v, *restrict w = nodes->w;
     const double *restrict elevation = work->water_now[6];
@@ -24,10 +24,10 @@ WIDE void line_segments(LineWork *work, const LineNodes *nodes)
     double *restrict px = work->px + 1, *restrict py = work->py + 1, *restrict pz = work->pz + 1;
     double *restrict wet = work->wet + 1, *restrict tension = work->tension + 1;
     double *restrict peak = work->peak + 1;
-    int count = work->node_count - 1;
+    int begin = run->begin, end = run->end;
     double tiny = 1e-24 * c.length * c.length; // a segment of no length has no direction
 #pragma GCC ivdep
-    for (int i = 0; i < count; i++) {
+    for (int i = begin; i < end; i++) {
         double ex = x[i + 1] - x[i], ey = y[i + 1] - y[i], ez = z[i + 1] - z[i];
         double s = sqrt(ex * ex + ey * ey + ez * ez + tiny);
         double inverse = 1 / s;
@@ -47,9 +47,10 @@ WIDE void line_segments(LineWork *work, const LineNodes *nodes)
     }
 }
 
-WIDE void line_node_forces(LineWork *work, const LineNodes *nodes)
+/// Nodes of a run, those at its ends as if the line went on alike.
+WIDE static void run_node_forces(LineWork *work, const LineNodes *nodes, const LineRun *run)
 {
-    const LineConstants c = work->constants;
+    const LineConstants c = run->constants;
     const double *restrict z = nodes->z;
     const double *restrict u = nodes->u, *restrict v = nodes->v, *restrict w = nodes->w;
     const double *restrict dx = work->dx, *restrict dy = work->dy, *restrict dz = work->dz;
@@ -62,9 +63,9 @@ WIDE void line_node_forces(LineWork *work, const LineNodes *nodes)
     double *restrict fx = work->fx, *restrict fy = work->fy, *restrict fz = work->fz;
     double *restrict ax = work->ax, *restrict ay = work->ay, *restrict az = work->az;
     double tiny = 1e-24 * c.length * c.length;
-    int count = work->node_count;
+    int begin = run->begin, end = run->end;
 #pragma GCC ivdep
-    for (int i = 0; i < count; i++) {
+    for (int i = begin; i <= end; i++) {
         Vec3 q = vec3(dx[i] + dx[i + 1], dy[i] + dy[i + 1], dz[i] + dz[i + 1]);
         q = vec3_scale(q, 1 / sqrt(vec3_dot(q, q) + tiny));
         double wet = 0.5 * (wetness[i] + wetness[i + 1]);
@@ -85,6 +86,50 @@ WIDE void line_node_forces(LineWork *work, const LineNodes *nodes)
         ay[i] = a.y;
         az[i] = a.z;
     }
+}
+
+/// One special node (see mooring_makeup.h).
+static void special_node_forces(LineWork *work, const LineNodes *nodes, int i)
+{
+    Vec3 place[3];
+    double elevation[3];
+    for (int k = 0; k < 3; k++) {
+        int at = i - 1 + k < 0 || i - 1 + k >= work->node_count ? i : i - 1 + k;
+        place[k] = vec3(nodes->x[at], nodes->y[at], nodes->z[at]);
+        elevation[k] = work->water_now[6][at];
+    }
+    SpecialNode node = makeup_special_node(&work->makeup, i, place, elevation);
+    const LineConstants *c = &node.sum;
+    double *const *water = work->water_now;
+    double u = nodes->u[i], v = nodes->v[i], w = nodes->w[i];
+    Vec3 f = line_drag(c, 1, node.q, vec3(water[0][i] - u, water[1][i] - v, water[2][i] - w));
+    f = vec3_add(f, line_water_inertia(c, 1, node.q, vec3(water[3][i], water[4][i], water[5][i])));
+    f = vec3_add(f, vec3(work->px[i + 1] - work->px[i], work->py[i + 1] - work->py[i],
+                         work->pz[i + 1] - work->pz[i]));
+    double bed = work->bed_share[i] > 0 ? line_bed_force(c, 1, nodes->z[i], w) : 0;
+    double rub = line_bed_friction(c, bed, sqrt(u * u + v * v));
+    f = vec3_add(f, vec3(-rub * u, -rub * v, bed + c->buoyancy - c->weight));
+    Vec3 a = line_acceleration(line_mass_normal(c, 1, 1), line_mass_tangential(c, 1, 1), node.q, f);
+    work->fx[i] = f.x;
+    work->fy[i] = f.y;
+    work->fz[i] = f.z;
+    work->ax[i] = a.x;
+    work->ay[i] = a.y;
+    work->az[i] = a.z;
+}
+
+void line_segments(LineWork *work, const LineNodes *nodes)
+{
+    for (int r = 0; r < work->makeup.run_count; r++)
+        run_segments(work, nodes, &work->makeup.runs[r]);
+}
+
+void line_node_forces(LineWork *work, const LineNodes *nodes)
+{
+    for (int r = 0; r < work->makeup.run_count; r++)
+        run_node_forces(work, nodes, &work->makeup.runs[r]);
+    for (int k = 0; k < work->makeup.special_count; k++)
+        special_node_forces(work, nodes, work->makeup.special[k]);
 }
 
 /// to = from + rate * h for positions and velocities of all nodes; `to` may be `from`, not `rate`.
@@ -125,8 +170,7 @@ int line_step_rk2(Line *line, const LineSpan *span, double *sick_time)
     long count = (long)ceil(span->duration / line->step_limit - 1e-9);
     count = count < 1 ? 1 : count;
     double h = span->duration / (double)count;
-    double sound_squared = work->constants.stiffness * work->constants.length *
-                           work->constants.length / work->constants.mass;
+    double sound_squared = line->sound_speed * line->sound_speed;
     for (long k = 0; k < count; k++) {
         line_water_at(work, (double)k / (double)count);
         line_segments(work, now);

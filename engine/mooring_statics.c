@@ -164,21 +164,47 @@ static double stretched_length(const Catenary *c)
     return c->length + (sum / c->weight + bed) / c->stiffness;
 }
 
+/// A line of several sections as if it were one: mean weights, springs in a row.
+typedef struct MeanLine {
+    const LineMakeup *makeup;
+    double length;    ///< unstretched [m]
+    double dry, wet;  ///< weight per length in air and in water [N/m]
+    double stiffness; ///< EA [N]
+    bool uniform;     ///< it is one
+} MeanLine;
+
+static MeanLine mean_line(const LineMakeup *makeup)
+{
+    MeanLine mean = {makeup, 0, 0, 0, 0, makeup->run_count == 1};
+    double weight = 0, buoyancy = 0, softness = 0;
+    for (int i = 0; i < makeup->segments; i++) {
+        const LineConstants *c = makeup->segment[i];
+        weight += c->weight;
+        buoyancy += c->buoyancy;
+        softness += 1 / c->stiffness;
+    }
+    mean.length = makeup_arc(makeup, makeup->segments);
+    mean.dry = weight / mean.length;
+    mean.wet = (weight - buoyancy) / mean.length;
+    mean.stiffness = mean.length / softness;
+    return mean;
+}
+
 /// Straight spring between the ends (weightless line).
-static void straight(const LineScene *line, Vec3 anchor, Vec3 fairlead, Vec3 *nodes,
+static void straight(const MeanLine *line, Vec3 anchor, Vec3 fairlead, Vec3 *nodes,
                      LineStatics *statics)
 {
     Vec3 d = vec3_sub(fairlead, anchor);
-    double tension = maxd(line->axial_stiffness * (vec3_norm(d) / line->length - 1), 0);
+    double tension = maxd(line->stiffness * (vec3_norm(d) / line->length - 1), 0);
     statics->fairlead_tension = statics->anchor_tension = tension;
     statics->horizontal_force = statics->span > 0 ? tension * hypot(d.x, d.y) / statics->span : 0;
     statics->stretched_length = maxd(line->length, statics->span);
-    for (int i = 0; nodes && i <= line->segments; i++)
-        nodes[i] = vec3_mad(anchor, d, (double)i / line->segments);
+    for (int i = 0; nodes && i <= line->makeup->segments; i++)
+        nodes[i] = vec3_mad(anchor, d, makeup_arc(line->makeup, i) / line->length);
 }
 
 /// Analytic solution of a line of one wet weight.
-static bool solve_catenary(const LineScene *line, Vec3 anchor, Vec3 fairlead, double weight,
+static bool solve_catenary(const MeanLine *line, Vec3 anchor, Vec3 fairlead, double weight,
                            const WaterField *water, const char *where, Vec3 *nodes,
                            LineStatics *statics, Error *error)
 {
@@ -190,7 +216,7 @@ static bool solve_catenary(const LineScene *line, Vec3 anchor, Vec3 fairlead, do
     c.span = hypot(d.x, d.y);
     c.length = line->length;
     c.weight = fabs(weight);
-    c.stiffness = line->axial_stiffness;
+    c.stiffness = line->stiffness;
     c.anchor = maxd(up * anchor.z - bed, 0);
     c.fairlead = maxd(up * fairlead.z - bed, 0);
     if (!catenary_solve(&c))
@@ -202,14 +228,14 @@ static bool solve_catenary(const LineScene *line, Vec3 anchor, Vec3 fairlead, do
     statics->touchdown = weight > 0 ? maxd(c.bed_length, 0) : 0;
     statics->stretched_length = stretched_length(&c);
     Vec3 forward = c.span > 0 ? vec3(d.x / c.span, d.y / c.span, 0) : vec3(1, 0, 0);
-    for (int i = 0; nodes && i <= line->segments; i++) {
+    for (int i = 0; nodes && i <= line->makeup->segments; i++) {
         double x, z;
-        catenary_point(&c, line->length * i / line->segments, &x, &z);
+        catenary_point(&c, makeup_arc(line->makeup, i), &x, &z);
         nodes[i] = vec3(anchor.x + forward.x * x, anchor.y + forward.y * x, up * (bed + z));
     }
     if (nodes) {
         nodes[0] = anchor;
-        nodes[line->segments] = fairlead;
+        nodes[line->makeup->segments] = fairlead;
     }
     return true;
 }
@@ -217,13 +243,16 @@ static bool solve_catenary(const LineScene *line, Vec3 anchor, Vec3 fairlead, do
 static bool check_line(const LineScene *line, Vec3 anchor, Vec3 fairlead, const char *where,
                        LineStatics *statics, Error *error)
 {
-    if (!(line->length > 0) || line->segments < 1 || !(line->axial_stiffness > 0) ||
-        !(line->mass_per_length > 0) || !(line->diameter > 0))
-        return error_set(error, ERROR_INPUT,
-                         "%s: length %g m, %d segments, axial stiffness %g N, mass %g kg/m, "
-                         "diameter %g m; accepted: all greater than 0",
-                         where, line->length, line->segments, line->axial_stiffness,
-                         line->mass_per_length, line->diameter);
+    for (int k = 0; k < line_section_count(line); k++) {
+        LineSection s = line_section(line, k);
+        if (!(s.length > 0) || s.segments < 1 || !(s.axial_stiffness > 0) ||
+            !(s.mass_per_length > 0) || !(s.diameter > 0))
+            return error_set(error, ERROR_INPUT,
+                             "%s: length %g m, %d segments, axial stiffness %g N, mass %g kg/m, "
+                             "diameter %g m; accepted: all greater than 0",
+                             where, s.length, s.segments, s.axial_stiffness, s.mass_per_length,
+                             s.diameter);
+    }
     statics->span = vec3_norm(vec3_sub(fairlead, anchor));
     statics->reach = line->length;
     if (!isfinite(statics->span))
@@ -250,21 +279,24 @@ bool line_statics(const LineScene *line, Vec3 anchor, Vec3 fairlead, const Water
 {
     memset(statics, 0, sizeof *statics);
     TRY(check_line(line, anchor, fairlead, where, statics, error));
-    LineConstants c = line_constants(line, water);
-    double dry = c.weight / c.length, wet = (c.weight - c.buoyancy) / c.length;
-    double weight = water->bed >= water->level ? dry : wet;
-    bool uniform = weight_is_uniform(water, anchor, fairlead, wet);
-    Arena own = arena_create(0); // a line at the surface is solved as a lumped one in any case
-    if (!nodes && !uniform)
-        nodes = arena_take(&own, (size_t)line->segments + 1, sizeof(Vec3), where, error);
-    bool good = uniform || nodes;
-    if (good && fabs(weight) * line->length < WEIGHTLESS * line->axial_stiffness)
-        straight(line, anchor, fairlead, nodes, statics);
-    else
-        good = good &&
-               solve_catenary(line, anchor, fairlead, weight, water, where, nodes, statics, error);
-    if (good && nodes)
-        good = line_relax(line, water, where, nodes, uniform ? NULL : statics, error);
+    Arena own = arena_create(0); // a line that is not uniform is solved as a lumped one in any case
+    LineMakeup makeup;
+    bool good = makeup_create(line, water, where, &own, &makeup, error);
+    if (good) {
+        MeanLine mean = mean_line(&makeup);
+        double weight = water->bed >= water->level ? mean.dry : mean.wet;
+        bool uniform = mean.uniform && weight_is_uniform(water, anchor, fairlead, mean.wet);
+        if (!nodes && !uniform)
+            nodes = arena_take(&own, (size_t)line->segments + 1, sizeof(Vec3), where, error);
+        good = uniform || nodes;
+        if (good && fabs(weight) * mean.length < WEIGHTLESS * mean.stiffness)
+            straight(&mean, anchor, fairlead, nodes, statics);
+        else
+            good = good && solve_catenary(&mean, anchor, fairlead, weight, water, where, nodes,
+                                          statics, error);
+        if (good && nodes)
+            good = line_relax(line, water, where, nodes, uniform ? NULL : statics, error);
+    }
     arena_destroy(&own);
     return good;
 }

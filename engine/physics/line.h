@@ -10,7 +10,8 @@
 
 #include "base/portable.h"
 
-/// What does not change along a line or in time; "per segment" means of one unstretched length.
+/// What does not change along a piece of line or in time; "per segment" means of one unstretched
+/// length.
 typedef struct LineConstants {
     double length;           ///< unstretched segment l [m]
     double stiffness;        ///< EA / l [N/m]
@@ -31,7 +32,31 @@ typedef struct LineConstants {
     double bed_friction;     ///< Coulomb coefficient [-]
     double friction_speed;   ///< slip at which friction is 1/sqrt(2) of its full value [m/s]
     double friction_cap;     ///< largest ratio of friction to slip speed [N s/m]
+    double bending;          ///< EI [N m^2]
+    double breaking;         ///< tension at which a segment parts [N], INFINITY = never
 } LineConstants;
+
+/// sum += half a segment of which the share `wet` is under water: the node between two segments,
+/// or at an end, carries the sum of its halves (then with share and wet of 1).
+FN void line_add_half(LineConstants *sum, const LineConstants *c, double wet)
+{
+    sum->length += 0.5 * c->length;
+    sum->mass += 0.5 * c->mass;
+    sum->weight += 0.5 * c->weight;
+    sum->buoyancy += 0.5 * wet * c->buoyancy;
+    sum->water_mass += 0.5 * wet * c->water_mass;
+    sum->added_normal += 0.5 * wet * c->added_normal;
+    sum->added_tangential += 0.5 * wet * c->added_tangential;
+    sum->drag_normal += 0.5 * wet * c->drag_normal;
+    sum->drag_tangential += 0.5 * wet * c->drag_tangential;
+    sum->bed = c->bed;
+    sum->bed_stiffness += 0.5 * c->bed_stiffness;
+    sum->bed_damping += 0.5 * c->bed_damping;
+    sum->bed_ramp = c->bed_ramp > sum->bed_ramp ? c->bed_ramp : sum->bed_ramp;
+    sum->bed_friction = c->bed_friction;
+    sum->friction_speed = c->friction_speed;
+    sum->friction_cap += 0.5 * c->friction_cap;
+}
 
 /// Elastic tension and damping tension of a segment [N] of stretched length `s` growing at `rate`.
 /// T = EA max(s/l - 1, 0);  Td = BA s'/l, held within -T..T, so that T + Td is never negative and
