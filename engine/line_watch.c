@@ -13,7 +13,8 @@ LineWatch line_watch_create(const Line *line, const WaterField *water)
     double displaced = water->density * PI / 4 * scene->diameter * scene->diameter;
     double weight = fabs(scene->mass_per_length - displaced) * water->gravity;
     LineWatch watch = {0};
-    watch.rest = maxd(line->tension[line->node_count - 2], weight * line->segment_length);
+    watch.rest =
+        maxd(line->tension[line->node_count - 2], weight * scene->length / scene->segments);
     watch.rise_time = RISE_FACTOR * sqrt(scene->length / water->gravity);
     watch.snap_time = -INFINITY;
     for (int i = 0; i < LINE_WATCH_BINS; i++)

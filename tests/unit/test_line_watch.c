@@ -65,10 +65,11 @@ static Line plain_line(LineScene *scene, double rest)
 {
     memset(scene, 0, sizeof *scene);
     scene->length = 9.81;
+    scene->segments = 1;
     scene->mass_per_length = 0.001;
     scene->diameter = 1e-6;
     pulled[0] = rest;
-    Line line = {.scene = scene, .node_count = 2, .segment_length = 9.81, .tension = pulled};
+    Line line = {.scene = scene, .node_count = 2, .tension = pulled};
     return line;
 }
 
