@@ -19,6 +19,7 @@ void health_checkpoint(const Scene *scene, State *state)
     c->step = state->step;
     c->waves = state->waves;
     memcpy(c->bodies, state->bodies, (size_t)scene->body_count * sizeof(Body));
+    memcpy(c->slammings, state->slammings, (size_t)scene->slamming_count * sizeof(Slamming));
     for (int l = 0; l < scene->line_count; l++)
         line_state_save(&state->lines[l], c->lines[l]);
     memcpy(c->watches, state->watches, (size_t)scene->line_count * sizeof(LineWatch));
@@ -33,6 +34,7 @@ static void roll_back(const Scene *scene, State *state)
     state->step = c->step;
     state->waves = c->waves;
     memcpy(state->bodies, c->bodies, (size_t)scene->body_count * sizeof(Body));
+    memcpy(state->slammings, c->slammings, (size_t)scene->slamming_count * sizeof(Slamming));
     for (int l = 0; l < scene->line_count; l++)
         line_state_restore(&state->lines[l], c->lines[l]);
     memcpy(state->watches, c->watches, (size_t)scene->line_count * sizeof(LineWatch));

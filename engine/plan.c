@@ -11,6 +11,7 @@
 #include "body.h"
 #include "carve.h"
 #include "fill.h"
+#include "slamming.h"
 #include "waves.h"
 
 /// c0 dt/h. What was tried of other values is in docs/performance.md.
@@ -194,6 +195,17 @@ static void choose_effects(const Scene *scene, Plan *plan, const Fill *fill)
     snprintf(text, sizeof text, scene->pressure_probe_count ? "probes.pressure: %d" : "no probes",
              scene->pressure_probe_count);
     set_effect(plan, EFFECT_PRESSURE_PROBES, scene->pressure_probe_count > 0, 0, text);
+    snprintf(text, sizeof text, scene->run_up_count ? "probes.run_up: %d" : "no run-up lines",
+             scene->run_up_count);
+    set_effect(plan, EFFECT_RUN_UP, scene->run_up_count > 0, 0, text);
+    snprintf(text, sizeof text,
+             scene->slamming_count ? "probes.slamming: %d" : "no slamming probes",
+             scene->slamming_count);
+    set_effect(plan, EFFECT_SLAMMING, scene->slamming_count > 0,
+               2 * (size_t)scene->slamming_count * sizeof(Slamming), text);
+    snprintf(text, sizeof text, scene->green_water_count ? "probes.green_water: %d" : "no decks",
+             scene->green_water_count);
+    set_effect(plan, EFFECT_GREEN_WATER, scene->green_water_count > 0, 0, text);
     set_effect(plan, EFFECT_ENERGY, scene->energy != ENERGY_NONE, 0,
                scene->energy == ENERGY_NONE ? "probes.energy is none" : "probes.energy: levels");
 }

@@ -24,6 +24,9 @@ enum {
     SCENE_POINTS_MAX = 64,
     SCENE_GAUGES_MAX = 32,
     SCENE_PRESSURE_PROBES_MAX = 64,
+    SCENE_RUN_UPS_MAX = 32,
+    SCENE_SLAMMINGS_MAX = 32,
+    SCENE_GREEN_WATERS_MAX = 32,
     SCENE_FLUID_BLOCKS_MAX = 16,
     SCENE_POLYGON_MAX = 256,
 };
@@ -216,7 +219,31 @@ typedef struct PressureProbeScene {
     char name[SCENE_NAME_SIZE];
     int body;      ///< index into bodies, -1 = earth (fixed in the world)
     Vec3 position; ///< [m], world or geometry axes
+    Vec3 normal;   ///< into the water, the same axes; NANs = water all round counts
+    double patch;  ///< diameter of the disc that is averaged over [m]; 0 = a point
 } PressureProbeScene;
+
+/// How far water reaches along a straight line: up a wall or a hull, or along the bed.
+typedef struct RunUpScene {
+    char name[SCENE_NAME_SIZE];
+    int body;      ///< index into bodies, -1 = earth
+    Vec3 from, to; ///< [m], world or geometry axes
+} RunUpScene;
+
+/// The fast part of the water's force on a body.
+typedef struct SlammingScene {
+    char name[SCENE_NAME_SIZE];
+    int body;
+    double cutoff; ///< of the low-pass filter that is taken off [Hz]
+    int order;     ///< of that filter, 1 to 4
+} SlammingScene;
+
+/// Water on a deck: a box in a body's axes, standing on the deck.
+typedef struct GreenWaterScene {
+    char name[SCENE_NAME_SIZE];
+    int body;
+    Vec3 min, max; ///< geometry axes [m]
+} GreenWaterScene;
 
 /// What is kept of the energies.
 typedef enum EnergyProbe {
@@ -254,6 +281,12 @@ typedef struct Scene {
     GaugeScene gauges[SCENE_GAUGES_MAX];
     int pressure_probe_count;
     PressureProbeScene pressure_probes[SCENE_PRESSURE_PROBES_MAX];
+    int run_up_count;
+    RunUpScene run_ups[SCENE_RUN_UPS_MAX];
+    int slamming_count;
+    SlammingScene slammings[SCENE_SLAMMINGS_MAX];
+    int green_water_count;
+    GreenWaterScene green_waters[SCENE_GREEN_WATERS_MAX];
     EnergyProbe energy;
     Outputs outputs;
     CameraScene camera;

@@ -73,10 +73,62 @@ bool case_check_lines(const JsonReader *reader, const Scene *scene)
     return true;
 }
 
+/// A direction must point somewhere, and a disc needs one.
+static bool check_patch(const JsonReader *reader, const PressureProbeScene *probe, int i)
+{
+    char at[JSON_PATH_SIZE];
+    snprintf(at, sizeof at, "probes.pressure[%d].normal", i);
+    if (probe->patch > 0 && isnan(probe->normal.x))
+        return table_refuse(reader, at, NULL,
+                            "is missing: patch_diameter_m must come with a direction [x, y, z]");
+    if (!isnan(probe->normal.x) && vec3_norm(probe->normal) < 1e-3)
+        return table_refuse_number(reader, at, vec3_norm(probe->normal),
+                                   "its length must be >= 0.001");
+    return true;
+}
+
+static bool check_run_ups(const JsonReader *reader, const Scene *scene)
+{
+    char at[JSON_PATH_SIZE];
+    for (int i = 0; i < scene->run_up_count; i++) {
+        const RunUpScene *line = &scene->run_ups[i];
+        TRY(check_name(reader, "probes.run_up", scene->run_ups[0].name, sizeof *line, i));
+        double length = vec3_norm(vec3_sub(line->to, line->from));
+        snprintf(at, sizeof at, "probes.run_up[%d].to_m", i);
+        if (length < scene->fluid.spacing)
+            return table_refuse_number(reader, at, length,
+                                       "its distance from from_m must be >= %.9g m (one spacing)",
+                                       scene->fluid.spacing);
+    }
+    return true;
+}
+
+static bool check_green_waters(const JsonReader *reader, const Scene *scene)
+{
+    char at[JSON_PATH_SIZE];
+    for (int i = 0; i < scene->green_water_count; i++) {
+        const GreenWaterScene *box = &scene->green_waters[i];
+        TRY(check_name(reader, "probes.green_water", scene->green_waters[0].name, sizeof *box, i));
+        bool plane = scene->domain.dimensions == 2;
+        double size = mind(box->max.x - box->min.x, box->max.z - box->min.z);
+        if (!plane) size = mind(size, box->max.y - box->min.y);
+        snprintf(at, sizeof at, "probes.green_water[%d].max_m", i);
+        if (size <= 0)
+            return table_refuse_number(reader, at, size,
+                                       "less min_m it must be > 0 m along each axis");
+    }
+    return true;
+}
+
 bool case_check_probes(const JsonReader *reader, const Scene *scene)
 {
     const Domain *domain = &scene->domain;
     char at[JSON_PATH_SIZE];
+    TRY(check_run_ups(reader, scene));
+    TRY(check_green_waters(reader, scene));
+    for (int i = 0; i < scene->slamming_count; i++)
+        TRY(check_name(reader, "probes.slamming", scene->slammings[0].name,
+                       sizeof *scene->slammings, i));
     for (int i = 0; i < scene->gauge_count; i++) {
         const GaugeScene *gauge = &scene->gauges[i];
         TRY(check_name(reader, "probes.gauges", scene->gauges[0].name, sizeof *gauge, i));
@@ -89,6 +141,7 @@ bool case_check_probes(const JsonReader *reader, const Scene *scene)
         const PressureProbeScene *probe = &scene->pressure_probes[i];
         TRY(check_name(reader, "probes.pressure", scene->pressure_probes[0].name, sizeof *probe,
                        i));
+        TRY(check_patch(reader, probe, i));
         if (probe->body >= 0) continue;
         snprintf(at, sizeof at, "probes.pressure[%d].position_m", i);
         TRY(check_inside(reader, at, "x", probe->position.x, domain->min.x, domain->max.x));

@@ -78,10 +78,44 @@ static const JsonField PRESSURE_FIELDS[] = {
     {"name", FIELD_NAME, true, .offset = offsetof(PressureProbeScene, name), .count_max = SCENE_NAME_SIZE},
     {"body", FIELD_CUSTOM, .offset = offsetof(PressureProbeScene, body), .read = case_read_body},
     {"position_m", FIELD_POINT, true, .offset = offsetof(PressureProbeScene, position), COORDINATE},
+    {"normal", FIELD_POINT, .offset = offsetof(PressureProbeScene, normal), .min = -1, .max = 1},
+    {"patch_diameter_m", FIELD_NUMBER, .offset = offsetof(PressureProbeScene, patch), .max = 100, .unit = "m"},
 };
 static const JsonTable PRESSURE_TABLE = {PRESSURE_FIELDS, COUNT(PRESSURE_FIELDS), NULL};
 
-static void pressure_default(void *item) { ((PressureProbeScene *)item)->body = -1; }
+static void pressure_default(void *item)
+{
+    ((PressureProbeScene *)item)->body = -1;
+    ((PressureProbeScene *)item)->normal = vec3(NAN, NAN, NAN);
+}
+
+static const JsonField RUN_UP_FIELDS[] = {
+    {"name", FIELD_NAME, true, .offset = offsetof(RunUpScene, name), .count_max = SCENE_NAME_SIZE},
+    {"body", FIELD_CUSTOM, .offset = offsetof(RunUpScene, body), .read = case_read_body},
+    {"from_m", FIELD_POINT, true, .offset = offsetof(RunUpScene, from), COORDINATE},
+    {"to_m", FIELD_POINT, true, .offset = offsetof(RunUpScene, to), COORDINATE},
+};
+static const JsonTable RUN_UP_TABLE = {RUN_UP_FIELDS, COUNT(RUN_UP_FIELDS), NULL};
+
+static void run_up_default(void *item) { ((RunUpScene *)item)->body = -1; }
+
+static const JsonField SLAMMING_FIELDS[] = {
+    {"name", FIELD_NAME, true, .offset = offsetof(SlammingScene, name), .count_max = SCENE_NAME_SIZE},
+    {"body", FIELD_CUSTOM, true, .offset = offsetof(SlammingScene, body), .read = case_read_body},
+    {"cutoff_hz", FIELD_NUMBER, true, .offset = offsetof(SlammingScene, cutoff), .max = 10000, .above_min = true, .unit = "Hz"},
+    {"order", FIELD_INTEGER, .offset = offsetof(SlammingScene, order), .min = 1, .max = 4},
+};
+static const JsonTable SLAMMING_TABLE = {SLAMMING_FIELDS, COUNT(SLAMMING_FIELDS), NULL};
+
+static void slamming_default(void *item) { ((SlammingScene *)item)->order = 2; }
+
+static const JsonField GREEN_WATER_FIELDS[] = {
+    {"name", FIELD_NAME, true, .offset = offsetof(GreenWaterScene, name), .count_max = SCENE_NAME_SIZE},
+    {"body", FIELD_CUSTOM, true, .offset = offsetof(GreenWaterScene, body), .read = case_read_body},
+    {"min_m", FIELD_POINT, true, .offset = offsetof(GreenWaterScene, min), COORDINATE},
+    {"max_m", FIELD_POINT, true, .offset = offsetof(GreenWaterScene, max), COORDINATE},
+};
+static const JsonTable GREEN_WATER_TABLE = {GREEN_WATER_FIELDS, COUNT(GREEN_WATER_FIELDS), NULL};
 
 static const JsonField PROBE_FIELDS[] = {
     {"gauges", FIELD_LIST, IN_CASE(scene.gauges), .table = &GAUGE_TABLE,
@@ -91,6 +125,16 @@ static const JsonField PROBE_FIELDS[] = {
      .item_size = sizeof(PressureProbeScene),
      .counter_offset = offsetof(CaseFile, scene.pressure_probe_count),
      .count_max = SCENE_PRESSURE_PROBES_MAX, .item_default = pressure_default},
+    {"run_up", FIELD_LIST, IN_CASE(scene.run_ups), .table = &RUN_UP_TABLE,
+     .item_size = sizeof(RunUpScene), .counter_offset = offsetof(CaseFile, scene.run_up_count),
+     .count_max = SCENE_RUN_UPS_MAX, .item_default = run_up_default},
+    {"slamming", FIELD_LIST, IN_CASE(scene.slammings), .table = &SLAMMING_TABLE,
+     .item_size = sizeof(SlammingScene), .counter_offset = offsetof(CaseFile, scene.slamming_count),
+     .count_max = SCENE_SLAMMINGS_MAX, .item_default = slamming_default},
+    {"green_water", FIELD_LIST, IN_CASE(scene.green_waters), .table = &GREEN_WATER_TABLE,
+     .item_size = sizeof(GreenWaterScene),
+     .counter_offset = offsetof(CaseFile, scene.green_water_count),
+     .count_max = SCENE_GREEN_WATERS_MAX},
     {"energy", FIELD_CHOICE, IN_CASE(scene.energy), .choices = {"none", "levels"}},
 };
 static const JsonTable PROBE_TABLE = {PROBE_FIELDS, COUNT(PROBE_FIELDS), NULL};

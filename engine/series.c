@@ -14,6 +14,9 @@ static const char *const LINE_COLUMNS[] = {"fairlead_tension_n", "anchor_tension
                                            "largest_tension_n", "touchdown_m"};
 static const char *const GAUGE_COLUMNS[] = {"elevation_m"};
 static const char *const PROBE_COLUMNS[] = {"pressure_pa"};
+static const char *const RUN_UP_COLUMNS[] = {"run_up_m"};
+static const char *const SLAMMING_COLUMNS[] = {"slam_fx_n", "slam_fy_n", "slam_fz_n"};
+static const char *const GREEN_COLUMNS[] = {"green_volume_m3", "green_height_m"};
 static const char *const WATER_ENERGY[] = {"kinetic_j", "potential_j", "compressible_j"};
 static const char *const BODY_ENERGY[] = {"bodies_j"};
 static const char *const LINE_ENERGY[] = {"lines_j"};
@@ -22,7 +25,8 @@ static const char *const LINE_ENERGY[] = {"lines_j"};
 
 static_assert(1 + SCENE_BODIES_MAX * COUNT_OF(BODY_COLUMNS) +
                       SCENE_LINES_MAX * COUNT_OF(LINE_COLUMNS) + SCENE_GAUGES_MAX +
-                      SCENE_PRESSURE_PROBES_MAX + 5 <=
+                      SCENE_PRESSURE_PROBES_MAX + SCENE_RUN_UPS_MAX + 3 * SCENE_SLAMMINGS_MAX +
+                      2 * SCENE_GREEN_WATERS_MAX + 5 <=
                   SERIES_COLUMNS_MAX,
               "every scene fits into a table");
 static_assert(SCENE_NAME_SIZE + 24 <= SERIES_COLUMN_SIZE, "every name fits into a column's");
@@ -46,6 +50,12 @@ void series_table(const Scene *scene, SeriesTable *table)
         add_columns(table, scene->gauges[i].name, GAUGE_COLUMNS, COUNT_OF(GAUGE_COLUMNS));
     for (int i = 0; i < scene->pressure_probe_count; i++)
         add_columns(table, scene->pressure_probes[i].name, PROBE_COLUMNS, COUNT_OF(PROBE_COLUMNS));
+    for (int i = 0; i < scene->run_up_count; i++)
+        add_columns(table, scene->run_ups[i].name, RUN_UP_COLUMNS, COUNT_OF(RUN_UP_COLUMNS));
+    for (int i = 0; i < scene->slamming_count; i++)
+        add_columns(table, scene->slammings[i].name, SLAMMING_COLUMNS, COUNT_OF(SLAMMING_COLUMNS));
+    for (int i = 0; i < scene->green_water_count; i++)
+        add_columns(table, scene->green_waters[i].name, GREEN_COLUMNS, COUNT_OF(GREEN_COLUMNS));
     if (scene->energy == ENERGY_NONE) return;
     add_columns(table, "energy", WATER_ENERGY, COUNT_OF(WATER_ENERGY));
     if (scene->body_count) add_columns(table, "energy", BODY_ENERGY, 1);
@@ -89,5 +99,14 @@ void series_sample(const Scene *scene, const Plan *plan, const State *state, dou
         *row++ = probe_elevation(scene, state, i);
     for (int i = 0; i < scene->pressure_probe_count; i++)
         *row++ = probe_pressure(scene, state, i);
+    for (int i = 0; i < scene->run_up_count; i++)
+        *row++ = probe_run_up(scene, state, i);
+    for (int i = 0; i < scene->slamming_count; i++)
+        row = add_vector(row, state->slammings[i].force);
+    for (int i = 0; i < scene->green_water_count; i++) {
+        GreenWater water = probe_green_water(scene, state, i);
+        *row++ = water.volume;
+        *row++ = water.height;
+    }
     if (scene->energy != ENERGY_NONE) energy_sample(scene, state, row);
 }

@@ -99,6 +99,8 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
     TRY(state->watches = arena_take(&state->arena, lines, sizeof(LineWatch), "lines", error));
     if (lines)
         TRY(state->events = arena_take(&state->arena, 1, sizeof(LineEvents), "lines", error));
+    TRY(state->slammings = arena_take(&state->arena, (size_t)scene->slamming_count,
+                                      sizeof(Slamming), "slamming", error));
     for (int b = 0; b < scene->body_count; b++)
         state->bodies[b] = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
     WaterField water = step_water(scene, state);
@@ -119,6 +121,8 @@ static bool create_checkpoint(const Scene *scene, State *state, Error *error)
     size_t bodies = (size_t)scene->body_count, lines = (size_t)scene->line_count;
     c->time = NAN;
     TRY(c->bodies = arena_take(&state->arena, bodies, sizeof(Body), "checkpoint", error));
+    TRY(c->slammings = arena_take(&state->arena, (size_t)scene->slamming_count, sizeof(Slamming),
+                                  "checkpoint", error));
     TRY(c->lines = arena_take(&state->arena, lines, sizeof(double *), "checkpoint", error));
     TRY(c->watches = arena_take(&state->arena, lines, sizeof(LineWatch), "checkpoint", error));
     for (int l = 0; l < scene->line_count; l++)

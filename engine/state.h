@@ -10,6 +10,7 @@
 #include "body.h"
 #include "line_watch.h"
 #include "plan.h"
+#include "slamming.h"
 #include "waves.h"
 
 /// What went wrong, where, when, against which limit; see health.h.
@@ -29,6 +30,7 @@ typedef struct Checkpoint {
     WaveState waves;
     Body *bodies;
     double **lines; ///< line_state_save of each
+    Slamming *slammings;
     LineWatch *watches;
     void *particles; ///< Backend.save
 } Checkpoint;
@@ -44,10 +46,11 @@ typedef struct State {
     int64_t step;
     double time_step; ///< in use now [s]
     WaveState waves;
-    Body *bodies;       ///< [scene->body_count]
-    Line *lines;        ///< [scene->line_count]
-    LineWatch *watches; ///< [scene->line_count]
-    LineEvents *events; ///< of all lines; NULL without lines
+    Body *bodies;        ///< [scene->body_count]
+    Line *lines;         ///< [scene->line_count]
+    Slamming *slammings; ///< [scene->slamming_count]
+    LineWatch *watches;  ///< [scene->line_count]
+    LineEvents *events;  ///< of all lines; NULL without lines
     HealthRecord health;
     double wall_time;                                 ///< spent in step_advance [s]
     double smallest_step, largest_step;               ///< used so far [s]

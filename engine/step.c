@@ -65,13 +65,20 @@ static void collect_line_loads(const Scene *scene, State *state)
     }
 }
 
-static void advance_bodies(const Scene *scene, State *state, double dt)
+static void advance_bodies(const Scene *scene, const Plan *plan, State *state, double dt)
 {
     collect_line_loads(scene, state);
     for (int b = 0; b < scene->body_count; b++) {
+        state->bodies[b].fluid_force = state->loads[b].force;
+        state->bodies[b].fluid_moment = state->loads[b].moment;
+    }
+    for (int i = 0; i < scene->slamming_count; i++) {
+        const SlammingScene *probe = &scene->slammings[i];
+        slamming_advance(&state->slammings[i], probe, scene, &state->bodies[probe->body],
+                         &plan->bodies[probe->body].geometry, dt);
+    }
+    for (int b = 0; b < scene->body_count; b++) {
         Body *body = &state->bodies[b];
-        body->fluid_force = state->loads[b].force;
-        body->fluid_moment = state->loads[b].moment;
         body_advance(body, &scene->bodies[b], scene->fluid.gravity, state->time, dt);
     }
 }
@@ -158,7 +165,7 @@ static bool step_once(const Scene *scene, const Plan *plan, State *state, double
 
     double lap = wall_clock();
     note_line_ends(scene, state, 0, &paths);
-    advance_bodies(scene, state, dt);
+    advance_bodies(scene, plan, state, dt);
     note_line_ends(scene, state, 1, &paths);
     state->body_seconds += wall_clock() - lap;
     lap = wall_clock();

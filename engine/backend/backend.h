@@ -142,8 +142,16 @@ typedef struct BackendTable {
     /// Highest z at which the water's colour function crosses one half above (x, y); NAN if dry
     /// [m].
     double (*elevation)(Backend *backend, double x, double y);
-    /// Shepard-interpolated pressure at a point [Pa]; 0 where dry.
-    double (*pressure)(Backend *backend, Vec3 point);
+    /// Shepard-interpolated pressure at a point [Pa]; 0 where dry. A `normal` other than zero looks
+    /// only at the water on its side.
+    double (*pressure)(Backend *backend, Vec3 point, Vec3 normal);
+    /// Water at `count` points evenly from `from` to `to`: its share of the room that dummies leave
+    /// [-], about one half at the surface.
+    void (*wetness)(Backend *backend, Vec3 from, Vec3 to, int count, double *share);
+    /// Volume of water [m^3] in count[0] x count[1] columns of a box min … max that moves with
+    /// `pose`; x fastest.
+    void (*columns)(const Backend *backend, const BodyPose *pose, Vec3 min, Vec3 max,
+                    const int count[2], double *volume);
     FluidEnergy (*energy)(const Backend *backend);
     /// Everything that changes, for roll-back.
     size_t (*state_size)(const Backend *backend);

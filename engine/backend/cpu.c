@@ -444,6 +444,8 @@ const BackendTable *backend_cpu(void)
         .download = cpu_download,
         .elevation = cpu_elevation,
         .pressure = cpu_pressure,
+        .wetness = cpu_wetness,
+        .columns = cpu_columns,
         .energy = cpu_energy,
         .state_size = cpu_state_size,
         .save = cpu_save,

@@ -87,11 +87,11 @@ double cpu_elevation(Backend *b, double x, double y)
     return NAN;
 }
 
-double cpu_pressure(Backend *b, Vec3 point)
+double cpu_pressure(Backend *b, Vec3 point, Vec3 normal)
 {
     cpu_refresh_boxes(b);
     const ParticleSet *f = &b->fluid;
-    double h = b->setup.smoothing_length, reach = 2 * h / b->grid.unit;
+    double h = b->setup.smoothing_length, unit = b->grid.unit, reach = 2 * h / unit;
     int32_t at[3] = {to_coordinate(&b->grid, 0, point.x), to_coordinate(&b->grid, 1, point.y),
                      to_coordinate(&b->grid, 2, point.z)};
     double weight = 0, sum = 0;
@@ -103,20 +103,83 @@ double cpu_pressure(Backend *b, Vec3 point)
         if (!near) continue;
         for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++) {
             if (f->id[i] < 0) continue;
-            double r2 = 0;
-            for (int a = 0; a < 3; a++) {
-                double d = b->grid.unit * (f->position[a][i] - at[a]);
-                r2 += d * d;
-            }
-            float s = (float)(1 - sqrt(r2) / (2 * h));
-            if (s <= 0) continue;
-            double lift = b->setup.gravity * b->setup.rest_density * b->grid.unit *
-                          ((double)f->position[2][i] - at[2]);
+            Vec3 d = vec3(unit * (f->position[0][i] - at[0]), unit * (f->position[1][i] - at[1]),
+                          unit * (f->position[2][i] - at[2]));
+            float s = (float)(1 - vec3_norm(d) / (2 * h));
+            if (s <= 0 || vec3_dot(d, normal) < 0) continue;
+            double lift = b->setup.gravity * b->setup.rest_density * d.z;
             weight += kernel_value(s);
             sum += kernel_value(s) * (tait_pressure(f->field[EXCESS][i], b->sweep.tait_b) + lift);
         }
     }
     return weight > 0 && sum > 0 ? sum / weight : 0;
+}
+
+/// Add the volume-weighted kernel of each particle of a set to the points from + k step.
+static void add_colour(const Backend *b, const ParticleSet *set, Vec3 from, Vec3 step, int count,
+                       double *colour)
+{
+    double h = b->setup.smoothing_length, reach = 2 * h, length = vec3_norm(step);
+    double volume = b->setup.particle_mass / b->setup.rest_density;
+    double scale = volume * kernel_constant(h, b->setup.dimensions);
+    Vec3 along = vec3_scale(step, 1 / length);
+    for (int i = 0; i < set->cluster_count * CLUSTER; i++) {
+        if (set->id[i] < 0) continue;
+        Vec3 d = vec3(to_metres(&b->grid, 0, set->position[0][i]) - from.x,
+                      to_metres(&b->grid, 1, set->position[1][i]) - from.y,
+                      to_metres(&b->grid, 2, set->position[2][i]) - from.z);
+        double x = vec3_dot(d, along), across2 = vec3_dot(d, d) - x * x;
+        if (across2 >= reach * reach) continue;
+        double half = sqrt(reach * reach - maxd(across2, 0));
+        int begin = (int)ceil(maxd((x - half) / length, 0));
+        int end = (int)floor(mind((x + half) / length, count - 1));
+        for (int k = begin; k <= end; k++) {
+            double r = sqrt(maxd(across2, 0) + (k * length - x) * (k * length - x));
+            float s = (float)(1 - r / reach);
+            if (s > 0) colour[k] += scale * kernel_value(s);
+        }
+    }
+}
+
+/// The colour function sum m/rho W is cut off by walls; there it is compared with what they leave.
+void cpu_wetness(Backend *b, Vec3 from, Vec3 to, int count, double *share)
+{
+    enum { PART = 256 };
+    double taken[PART];
+    Vec3 step = vec3_scale(vec3_sub(to, from), 1.0 / (count > 1 ? count - 1 : 1));
+    for (int begin = 0; begin < count; begin += PART) {
+        int part = count - begin < PART ? count - begin : PART;
+        Vec3 start = vec3_mad(from, step, begin);
+        for (int k = 0; k < part; k++)
+            taken[k] = share[begin + k] = 0;
+        add_colour(b, &b->fluid, start, step, part, share + begin);
+        add_colour(b, &b->fixed, start, step, part, taken);
+        add_colour(b, &b->moving, start, step, part, taken);
+        for (int k = 0; k < part; k++)
+            share[begin + k] /= maxd(1 - taken[k], 0.1);
+    }
+}
+
+void cpu_columns(const Backend *b, const BodyPose *pose, Vec3 min, Vec3 max, const int count[2],
+                 double *volume)
+{
+    const ParticleSet *f = &b->fluid;
+    double each = b->setup.particle_mass / b->setup.rest_density;
+    for (int k = 0; k < count[0] * count[1]; k++)
+        volume[k] = 0;
+    for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
+        if (f->id[i] < 0) continue;
+        Vec3 d = vec3(to_metres(&b->grid, 0, f->position[0][i]) - pose->origin.x,
+                      to_metres(&b->grid, 1, f->position[1][i]) - pose->origin.y,
+                      to_metres(&b->grid, 2, f->position[2][i]) - pose->origin.z);
+        Vec3 at = quat_rotate(quat_conjugate(pose->attitude), d);
+        bool outside = at.x < min.x || at.x >= max.x || at.z < min.z || at.z >= max.z;
+        if (outside || at.y < min.y || at.y >= max.y) continue;
+        int x = (int)((at.x - min.x) / (max.x - min.x) * count[0]);
+        int y = (int)((at.y - min.y) / (max.y - min.y) * count[1]);
+        volume[(y < count[1] ? y : count[1] - 1) * count[0] + (x < count[0] ? x : count[0] - 1)] +=
+            each;
+    }
 }
 
 FluidEnergy cpu_energy(const Backend *b)
