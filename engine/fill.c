@@ -186,6 +186,13 @@ static int *wall_of(const Scene *scene, Fill *fill, const Lattice *l, const int 
     return &fill->wall_count;
 }
 
+/// How many cells an index lies outside of 0 … count - 1; 0 inside.
+static int cells_beyond(int index, int count)
+{
+    if (index < 0) return -index;
+    return index < count ? 0 : index - count + 1;
+}
+
 static void fill_walls(const Scene *scene, const Plan *plan, Fill *fill)
 {
     Vec3 top = scene->domain.max;
@@ -193,11 +200,18 @@ static void fill_walls(const Scene *scene, const Plan *plan, Fill *fill)
     Lattice l = lattice_of(scene->domain.min, top, scene->fluid.spacing, scene->domain.dimensions);
     int n = plan->wall_layers, ny = scene->domain.dimensions == 2 ? 0 : n;
     int high = (int)ceil((scene->domain.max.z - scene->domain.min.z) / l.pitch[2] - 1e-6);
-    for (int i = -n; i < l.count[0] + n; i++)
+    // Ring and piston slide along the fixed walls, which go on as far: a hole behind the corner
+    // would draw the water in.
+    bool flume = scene->domain.kind == DOMAIN_FLUME;
+    int apron = (int)ceil(waves_wall_reach(scene) / scene->fluid.spacing - 1e-6);
+    int left = n + apron, right = flume ? n : left;
+    if (ny && !flume) ny += apron;
+    for (int i = -left; i < l.count[0] + right; i++)
         for (int j = -ny; j < l.count[1] + ny; j++)
             for (int k = -n; k < high; k++) {
-                bool in_x = i >= 0 && i < l.count[0], in_y = j >= 0 && j < l.count[1];
-                if (k >= 0 && in_x && in_y) continue;
+                int x = cells_beyond(i, l.count[0]), y = cells_beyond(j, l.count[1]);
+                bool water = k >= 0 && !x && !y, slides = k < 0 || (flume && y);
+                if (water || ((x > n || y > n) && !slides)) continue;
                 int index[3] = {i, j, k}, owner;
                 int *count = wall_of(scene, fill, &l, index, &owner);
                 add_dummy(fill, count, lattice_point(&l, i, j, k), owner);

@@ -33,13 +33,15 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     const double low[3] = {d->min.x, d->min.y, d->min.z};
     // spray may fly; waves of a basin must stay inside
     const double high[3] = {d->max.x, d->max.y, INFINITY};
-    for (int a = 0; a < 3; a++) {
-        bool any = a == 1 && d->dimensions == 2;
-        s.inside_min[a] = any ? -INFINITY : low[a];
-        s.inside_max[a] = any ? INFINITY : high[a];
-    }
     bool waves = scene->waves.kind != WAVES_NONE;
     bool ring = waves && d->kind == DOMAIN_BASIN, piston = waves && d->kind == DOMAIN_FLUME;
+    const double wall_reach = waves_wall_reach(scene);
+    for (int a = 0; a < 3; a++) {
+        bool any = a == 1 && d->dimensions == 2;
+        double reach = a < 2 ? wall_reach : 0; // water rides with ring and piston
+        s.inside_min[a] = any ? -INFINITY : low[a] - reach;
+        s.inside_max[a] = any ? INFINITY : high[a] + reach;
+    }
     for (int a = 0; a < 3; a++) {
         bool open = (a < 2 && ring) || (a == 1 && d->dimensions == 2);
         s.barrier_min[a] = open || (a == 0 && piston) ? -INFINITY : low[a];
@@ -47,8 +49,8 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     }
     s.barrier_top = d->max.z;
     // dummies behind the walls, waves of the ring, bodies that stick out, spray above
-    double side = (plan->wall_layers + 1) * s.spacing;
-    if (scene->waves.kind != WAVES_NONE) side += scene->waves.height_limits.max;
+    double side = (plan->wall_layers + 2) * s.spacing;
+    if (scene->waves.kind != WAVES_NONE) side += maxd(scene->waves.height_limits.max, wall_reach);
     double top = d->max.z + 0.5 * (d->max.z - d->min.z);
     for (int b = 0; b < scene->body_count; b++) {
         const MeshProperties *p = &plan->bodies[b].geometry.properties;

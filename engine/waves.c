@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "physics/wave_theory.h"
+#include "piston.h"
 
 /// Turning further, or changing the period by more than this share, takes the old sea down first.
 static const double FAR_HEADING = 60 * PI / 180;
@@ -342,6 +343,18 @@ double waves_zone_width(const Scene *scene)
     if (scene->waves.period_limits.max > longest) longest = scene->waves.period_limits.max;
     double lengths = scene->domain.kind == DOMAIN_FLUME ? BEACH_LENGTHS : ZONE_LENGTHS;
     return lengths * wave_length(scene, longest);
+}
+
+double waves_wall_reach(const Scene *scene)
+{
+    const Waves *w = &scene->waves;
+    if (w->kind == WAVES_NONE) return 0;
+    double height = maxd(w->initial.height, w->height_limits.max);
+    double k = 2 * PI / wave_length(scene, maxd(w->initial.period, w->period_limits.max));
+    double kd = k * basin_depth(scene);
+    // first order at the surface, a quarter more for the second
+    double ratio = scene->domain.kind == DOMAIN_FLUME ? piston_stroke_ratio(kd) : 1 / tanh(kd);
+    return 1.25 * 0.5 * height * ratio;
 }
 
 /// Appends one warning; counts it even where the text has no room left.

@@ -114,6 +114,10 @@ void waves_zone_batch(const WaveState *waves, double time, int count, const floa
 /// longest wave that may be set live (the whole of it for a beach). 0 without waves and in a tank.
 double waves_zone_width(const Scene *scene);
 
+/// Most that the ring's columns or the piston may move sideways in waves that may be set [m]; 0
+/// without either.
+double waves_wall_reach(const Scene *scene);
+
 /// Warnings a user should read: beyond breaking (Miche), too coarse (H/dp < 5), basin too small.
 /// Writes at most `size` characters, lines joined by "; ". @return number of warnings
 int waves_warnings(const Scene *scene, char *text, int size);
