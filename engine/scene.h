@@ -63,6 +63,14 @@ typedef struct Fluid {
 } Fluid;
 
 typedef enum WaveKind { WAVES_NONE, WAVES_REGULAR } WaveKind;
+/// How a regular wave is described (steady_wave.h).
+typedef enum WaveTheory {
+    WAVE_THEORY_AUTO,    ///< the stream function
+    WAVE_THEORY_AIRY,    ///< first order
+    WAVE_THEORY_STOKES2, ///< second order
+    WAVE_THEORY_STOKES5, ///< fifth order: deep and intermediate water
+    WAVE_THEORY_STREAM,  ///< stream function: every wave up to near the highest
+} WaveTheory;
 typedef enum WaveStart { WAVE_START_RAMP, WAVE_START_HOT } WaveStart;
 
 /// A regular wave as the user names it.
