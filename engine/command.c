@@ -57,12 +57,12 @@ bool command_check(const Scene *scene, const Command *command, const WaveTarget 
                          sea.heading * 180 / PI);
     double depth = scene->fluid.level - scene->domain.min.z;
     double number = wave_number_airy(2 * PI / sea.period, depth, scene->fluid.gravity);
-    double breaking = wave_breaking_height(number, depth);
-    if (sea.height > breaking)
+    double most = 2 * wave_breaking_height(number, depth);
+    if (sea.height > most)
         return error_set(error, ERROR_INPUT,
-                         "wave.height_m = %.9g: breaks at a period of %.9g s: must be >= %.9g and "
-                         "<= %.4g m",
-                         sea.height, sea.period, waves->height_limits.min, breaking);
+                         "wave.height_m = %.9g: must be >= %.9g and <= %.4g m, twice the breaking "
+                         "height at a period of %.9g s",
+                         sea.height, waves->height_limits.min, most, sea.period);
     *target = sea;
     return true;
 }

@@ -77,12 +77,12 @@ static void write_fluid(const Box *box, Fill *fill, int n, Vec3 mean, Vec3 shift
     fill->fluid_position[n] = vec3_add(mean, shift);
     fill->fluid_velocity[n] = vec3(0, 0, 0);
     if (waves) {
-        fill->fluid_velocity[n] = waves_orbit_velocity(waves, mean, 0);
+        fill->fluid_velocity[n] = waves_zone_velocity(waves, fill->fluid_position[n], 0);
         // a particle keeps its mean pressure but for what deep water theory leaves out:
         // p_dynamic/(rho g) - zeta = eta cosh K/cosh kd - zeta
-        const WaveTrain *t = &waves->layers[0].train;
-        double k = t->wave_number, d = t->depth;
-        double ratio = cosh(k * (mean.z - t->level + d)) / cosh(k * d);
+        const WaveTerms *w = &waves->layers[0].train.terms;
+        double e = exp(w->wave_number * (mean.z - w->level)), E = w->depth_ratio;
+        double ratio = (e + E / e) / (1 + E); // cosh K/cosh kd
         Vec3 place = fill->fluid_position[n];
         below += waves_elevation(waves, place.x, place.y, 0) * ratio - shift.z;
     }

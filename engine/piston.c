@@ -20,8 +20,9 @@ static double piston_displacement(const WaveState *waves, double time)
         s = s < 0 ? 0 : (s > 1 ? 1 : s);
         double opacity = i == 0 && layer->duration <= 0 ? 1 : s * s * s * (10 - 15 * s + 6 * s * s);
         const WaveTrain *t = &layer->train;
-        double half_stroke = t->amplitude * piston_stroke_ratio(t->wave_number * t->depth);
-        double angle = t->angular_frequency * (time - t->time_origin) - t->phase;
+        double half_stroke =
+            t->amplitude * piston_stroke_ratio(t->terms.wave_number * t->terms.depth);
+        double angle = t->terms.angular_frequency * (time - t->time_origin) - t->phase;
         displacement += below * opacity * half_stroke * sin(angle);
         below *= 1 - opacity;
     }

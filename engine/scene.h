@@ -86,6 +86,7 @@ typedef struct Range {
 
 typedef struct Waves {
     WaveKind kind;
+    WaveTheory theory;
     WaveTarget initial;
     WaveStart start;
     double ramp_time;     ///< time to grow from rest [s] (ramp start)

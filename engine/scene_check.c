@@ -127,18 +127,19 @@ static bool check_wave_heights(const JsonReader *reader, const Scene *scene)
 {
     const Waves *waves = &scene->waves;
     const WaveTarget *sea = &waves->initial;
-    double breaking = case_breaking_height(scene, sea->period);
-    if (sea->height > breaking)
+    double most = 2 * case_breaking_height(scene, sea->period);
+    if (sea->height > most)
         return table_refuse_number(reader, "waves.height_m", sea->height,
-                                   "breaks: must be >= 0 and <= %.4g m at a period of %.9g s in "
-                                   "%.9g m of water (Miche)",
-                                   breaking, sea->period, water_depth(scene));
+                                   "must be >= 0 and <= %.4g m, twice the breaking height 0.142 L "
+                                   "tanh(kd) at a period of %.9g s in %.9g m of water (Miche)",
+                                   most, sea->period, water_depth(scene));
     double highest = waves->height_limits.max;
-    breaking = case_breaking_height(scene, waves->period_limits.max);
-    if (highest > breaking)
+    most = 2 * case_breaking_height(scene, waves->period_limits.max);
+    if (highest > most)
         return table_refuse_number(reader, "waves.limits.height_m", highest,
-                                   "its largest breaks at every period: must be <= %.4g m",
-                                   breaking);
+                                   "its largest must be <= %.4g m, twice the breaking height of "
+                                   "the longest wave (Miche)",
+                                   most);
     double top = scene->domain.max.z - scene->fluid.level;
     if (top < highest * (1 - SLACK))
         return table_refuse_number(reader, "domain.max_m", scene->domain.max.z,

@@ -56,6 +56,8 @@ static const JsonTable LIMIT_TABLE = {LIMIT_FIELDS, COUNT(LIMIT_FIELDS), NULL};
 
 static const JsonField WAVE_FIELDS[] = {
     {"kind", FIELD_CHOICE, true, IN_CASE(scene.waves.kind), .choices = {"none", "regular"}},
+    {"theory", FIELD_CHOICE, IN_CASE(scene.waves.theory),
+     .choices = {"auto", "airy", "stokes2", "stokes5", "stream"}},
     {"height_m", FIELD_NUMBER, IN_CASE(scene.waves.initial.height), WAVE_HEIGHT},
     {"period_s", FIELD_NUMBER, IN_CASE(scene.waves.initial.period), WAVE_PERIOD},
     {"heading_deg", FIELD_NUMBER, IN_CASE(scene.waves.initial.heading), DEGREES(-180, 360)},

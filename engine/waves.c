@@ -5,6 +5,7 @@
 
 #include "physics/wave_theory.h"
 #include "piston.h"
+#include "wave_orbits.h"
 
 /// Turning further, or changing the period by more than this share, takes the old sea down first.
 static const double FAR_HEADING = 60 * PI / 180;
@@ -12,6 +13,8 @@ static const double FAR_PERIOD = 0.30;
 /// A layer runs this share of its rise before the next may begin.
 static const double LAYER_SPACING = 1.0 / 3;
 /// Width of the relaxation zone and length of the beach in longest wave lengths (docs/physics.md).
+/// Orbits may miss those of the theory by this share of the height.
+static const double MISFIT = 0.01;
 static const double ZONE_LENGTHS = 0.75, BEACH_LENGTHS = 1.0;
 
 double wave_number_airy(double angular_frequency, double depth, double gravity)
@@ -26,7 +29,27 @@ static double angle_between(double a, double b) { return fabs(remainder(a - b, 2
 /// theta at the basin's centre.
 static double centre_phase(const WaveTrain *train, double time)
 {
-    return train->phase - train->angular_frequency * (time - train->time_origin);
+    return train->phase - train->terms.angular_frequency * (time - train->time_origin);
+}
+
+/// Coefficients of the asked wave: by its theory, and to second order where that has no such wave
+/// (beyond breaking) or where its orbits are too sharp at the crest to be followed.
+static WaveTerms terms_create(const Scene *scene, const WaveTarget *target)
+{
+    double level = scene->fluid.level, depth = basin_depth(scene), misfit = 0;
+    SteadyWaveAsk ask = {.theory = scene->waves.theory,
+                         .height = target->height,
+                         .period = target->period,
+                         .depth = depth,
+                         .gravity = scene->fluid.gravity};
+    SteadyWave wave;
+    if (target->height > 0 && steady_wave_solve(&ask, &wave)) {
+        WaveTerms terms = wave_orbits_terms(&wave, level, &misfit);
+        if (misfit < MISFIT * target->height) return terms;
+    }
+    double omega = 2 * PI / target->period;
+    double number = wave_number_airy(omega, depth, scene->fluid.gravity);
+    return wave_terms(target->height / 2, number, omega, depth, level);
 }
 
 static WaveTrain train_create(const Scene *scene, const WaveTarget *target)
@@ -34,16 +57,34 @@ static WaveTrain train_create(const Scene *scene, const WaveTarget *target)
     const Domain *domain = &scene->domain;
     WaveTrain train = {0};
     train.amplitude = target->height / 2;
-    train.angular_frequency = 2 * PI / target->period;
-    train.depth = basin_depth(scene);
-    train.level = scene->fluid.level;
-    train.wave_number =
-        wave_number_airy(train.angular_frequency, train.depth, scene->fluid.gravity);
-    train.cos_heading = cos(target->heading);
-    train.sin_heading = domain->dimensions == 2 ? 0 : sin(target->heading);
+    train.terms = terms_create(scene, target);
+    train.terms.cos_heading = cos(target->heading);
+    train.terms.sin_heading = domain->dimensions == 2 ? 0 : sin(target->heading);
     train.centre_x = (domain->min.x + domain->max.x) / 2;
     train.centre_y = domain->dimensions == 2 ? 0 : (domain->min.y + domain->max.y) / 2;
     return train;
+}
+
+/// The same train at height zero.
+static WaveTrain train_at_rest(const WaveTrain *train)
+{
+    WaveTrain rest = *train;
+    const WaveTerms *w = &train->terms;
+    rest.amplitude = 0;
+    rest.terms = wave_terms_zero(w->wave_number, w->angular_frequency, w->depth, w->level);
+    rest.terms.cos_heading = w->cos_heading;
+    rest.terms.sin_heading = w->sin_heading;
+    return rest;
+}
+
+static WaveInterior interior_create(const Scene *scene)
+{
+    const Domain *d = &scene->domain;
+    bool plane = d->dimensions == 2;
+    WaveInterior in = {
+        {d->min.x, plane ? -1e30 : d->min.y}, {d->max.x, plane ? 1e30 : d->max.y}, 0};
+    if (d->kind == DOMAIN_BASIN) in.width = waves_zone_width(scene);
+    return in;
 }
 
 WaveState waves_create(const Scene *scene)
@@ -52,6 +93,7 @@ WaveState waves_create(const Scene *scene)
     memset(&waves, 0, sizeof waves);
     if (scene->waves.kind == WAVES_NONE) return waves;
     waves.asked = scene->waves.initial;
+    waves.interior = interior_create(scene);
     WaveLayer *base = &waves.layers[0];
     base->target = waves.asked;
     base->train = train_create(scene, &waves.asked);
@@ -60,7 +102,8 @@ WaveState waves_create(const Scene *scene)
         waves.layers[1] = *base;
         waves.layers[1].duration = scene->waves.ramp_time;
         waves.layer_count = 2;
-        base->train.amplitude = base->target.height = 0;
+        base->train = train_at_rest(&base->train);
+        base->target.height = 0;
         waves.active = true;
     }
     return waves;
@@ -104,9 +147,9 @@ static void admit(WaveState *waves, const Scene *scene, double time)
     const WaveLayer *top = &waves->layers[waves->layer_count - 1];
     if (far_from_present(waves, target)) {
         if (!(top->target.height > 0)) return; // already going down to rest
-        WaveTrain rest = top->train;
+        WaveTrain rest = train_at_rest(&top->train);
         WaveTarget none = top->target;
-        rest.amplitude = none.height = 0;
+        none.height = 0;
         layer_push(waves, &rest, &none, time, none.period);
         return;
     }
@@ -206,18 +249,14 @@ int waves_terms(const WaveState *waves, double time, WaveTerms *terms)
     layer_weights(waves, time, weights);
     for (int i = 0; i < waves->layer_count; i++) {
         const WaveTrain *train = &waves->layers[i].train;
-        bool hidden = weights[i].value == 0 && weights[i].rate == 0 && weights[i].curve == 0;
-        if (!(train->amplitude > 0) || hidden) continue;
+        if (!(train->amplitude > 0)) continue;
         WaveTerms *w = &terms[count++];
-        *w = wave_terms(train->amplitude, train->wave_number, train->angular_frequency,
-                        train->depth, train->level);
-        w->cos_heading = train->cos_heading;
-        w->sin_heading = train->sin_heading;
-        w->turns_x = train->wave_number * train->cos_heading / (2 * PI);
-        w->turns_y = train->wave_number * train->sin_heading / (2 * PI);
+        *w = train->terms;
+        w->turns_x = w->wave_number * w->cos_heading / (2 * PI);
+        w->turns_y = w->wave_number * w->sin_heading / (2 * PI);
         double turns = centre_phase(train, time) / (2 * PI) - w->turns_x * train->centre_x -
                        w->turns_y * train->centre_y;
-        w->turns = remainder(turns, 1.0);
+        w->turns = remainder(turns, 1);
         w->weight = weights[i].value;
         w->weight_rate = weights[i].rate;
         w->weight_curve = weights[i].curve;
@@ -238,8 +277,8 @@ Vec3 waves_displacement(const WaveState *waves, Vec3 mean, double time)
     Vec3 sum = vec3(0, 0, 0);
     for (int i = 0; i < count; i++) {
         const WaveTerms *w = &terms[i];
-        WavePlace p = wave_place(*w, mean.x, mean.y, mind(mean.z, w->level));
-        sum = motion_add(sum, w, wave_orbit(*w, p), w->weight);
+        WavePlace p = wave_place(w, mean.x, mean.y, mind(mean.z, w->level));
+        sum = motion_add(sum, w, wave_orbit(w, p), w->weight);
     }
     return sum;
 }
@@ -251,24 +290,9 @@ Vec3 waves_orbit_velocity(const WaveState *waves, Vec3 mean, double time)
     Vec3 sum = vec3(0, 0, 0);
     for (int i = 0; i < count; i++) {
         const WaveTerms *w = &terms[i];
-        WavePlace p = wave_place(*w, mean.x, mean.y, mind(mean.z, w->level));
-        sum = motion_add(sum, w, wave_orbit_rate(*w, p), w->weight);
-        sum = motion_add(sum, w, wave_orbit(*w, p), w->weight_rate);
-    }
-    return sum;
-}
-
-Vec3 waves_orbit_acceleration(const WaveState *waves, Vec3 mean, double time)
-{
-    WaveTerms terms[WAVE_LAYERS_MAX];
-    int count = waves_terms(waves, time, terms);
-    Vec3 sum = vec3(0, 0, 0);
-    for (int i = 0; i < count; i++) {
-        const WaveTerms *w = &terms[i];
-        WavePlace p = wave_place(*w, mean.x, mean.y, mind(mean.z, w->level));
-        sum = motion_add(sum, w, wave_orbit_curve(*w, p), w->weight);
-        sum = motion_add(sum, w, wave_orbit_rate(*w, p), 2 * w->weight_rate);
-        sum = motion_add(sum, w, wave_orbit(*w, p), w->weight_curve);
+        WavePlace p = wave_place(w, mean.x, mean.y, mind(mean.z, w->level));
+        sum = motion_add(sum, w, wave_orbit_rate(w, p), w->weight);
+        sum = motion_add(sum, w, wave_orbit(w, p), w->weight_rate);
     }
     return sum;
 }
@@ -276,10 +300,8 @@ Vec3 waves_orbit_acceleration(const WaveState *waves, Vec3 mean, double time)
 static double elevation_sum(const WaveTerms *terms, int count, double x, double y)
 {
     double sum = 0;
-    for (int i = 0; i < count; i++) {
-        WavePlace p = wave_place(terms[i], x, y, terms[i].level);
-        sum += terms[i].weight * wave_elevation(terms[i], p);
-    }
+    for (int i = 0; i < count; i++)
+        sum += terms[i].weight * wave_elevation(&terms[i], wave_place(&terms[i], x, y, 0));
     return sum;
 }
 
@@ -290,18 +312,9 @@ double waves_elevation(const WaveState *waves, double x, double y, double time)
     return elevation_sum(terms, count, x, y);
 }
 
-typedef WaveMotion (*FieldFunction)(WaveTerms w, WavePlace p);
-static WaveMotion velocity_field(WaveTerms w, WavePlace p) { return wave_velocity(w, p); }
-static WaveMotion acceleration_field(WaveTerms w, WavePlace p) { return wave_acceleration(w, p); }
-static WaveMotion driftless_field(WaveTerms w, WavePlace p)
-{
-    WaveMotion m = wave_velocity(w, p);
-    m.along -= wave_drift(w, p);
-    return m;
-}
-
 /// Weighted sum of a field at (x, min(z, eta)).
-static Vec3 field_sum(const WaveState *waves, Vec3 point, double time, FieldFunction field)
+static Vec3 field_sum(const WaveState *waves, Vec3 point, double time,
+                      WaveMotion (*field)(const WaveTerms *w, WavePlace p))
 {
     WaveTerms terms[WAVE_LAYERS_MAX];
     int count = waves_terms(waves, time, terms);
@@ -309,23 +322,70 @@ static Vec3 field_sum(const WaveState *waves, Vec3 point, double time, FieldFunc
     Vec3 sum = vec3(0, 0, 0);
     for (int i = 0; i < count; i++) {
         const WaveTerms *w = &terms[i];
-        WavePlace p = wave_place(*w, point.x, point.y, mind(point.z, w->level + eta));
-        sum = motion_add(sum, w, field(*w, p), w->weight);
+        WavePlace p = wave_place(w, point.x, point.y, mind(point.z, w->level + eta));
+        sum = motion_add(sum, w, field(w, p), w->weight);
     }
     return sum;
 }
 
 Vec3 waves_velocity(const WaveState *waves, Vec3 point, double time)
 {
-    return field_sum(waves, point, time, velocity_field);
+    return field_sum(waves, point, time, wave_velocity);
 }
 Vec3 waves_acceleration(const WaveState *waves, Vec3 point, double time)
 {
-    return field_sum(waves, point, time, acceleration_field);
+    return field_sum(waves, point, time, wave_acceleration);
 }
+
+/// How much of the drift is taken out at a place, and how that grows along x and y [1/m].
+typedef struct DriftShare {
+    double share, along_x, along_y;
+} DriftShare;
+
+/// Quadratic smoothstep of q = 1 - distance/width from the nearest side.
+static DriftShare drift_share(const WaveInterior *in, double x, double y)
+{
+    DriftShare d = {1, 0, 0};
+    if (!(in->width > 0)) return d;
+    double dx = mind(x - in->min[0], in->max[0] - x), dy = mind(y - in->min[1], in->max[1] - y);
+    double q = 1 - mind(dx, dy) / in->width;
+    q = q < 0 ? 0 : (q > 1 ? 1 : q);
+    double slope = 6 * q * (1 - q) / in->width;
+    d.share = q * q * (3 - 2 * q);
+    if (dx <= dy)
+        d.along_x = x - in->min[0] < in->max[0] - x ? -slope : slope;
+    else
+        d.along_y = y - in->min[1] < in->max[1] - y ? -slope : slope;
+    return d;
+}
+
+/// (u - s D)/(1 - s D/c) along and w/(1 - s D/c) + (grad s . heading) int D dz up: where s = 1 the
+/// velocity of a particle whose orbit is closed, exactly; between, without a divergence in the
+/// mean.
+static WaveMotion driftless(const WaveTerms *w, WavePlace p, DriftShare d)
+{
+    WaveMotion m = wave_velocity(w, p);
+    double label = wave_label(w, p), drift = d.share * wave_drift(w, label);
+    double slower = 1 / (1 - drift / (w->frame_speed + w->mean_velocity - w->transport));
+    double growth = d.along_x * w->cos_heading + d.along_y * w->sin_heading;
+    m.along = w->transport + (m.along - w->transport - drift) * slower;
+    m.up = m.up * slower + growth * wave_drift_integral(w, label);
+    return m;
+}
+
 Vec3 waves_zone_velocity(const WaveState *waves, Vec3 point, double time)
 {
-    return field_sum(waves, point, time, driftless_field);
+    WaveTerms terms[WAVE_LAYERS_MAX];
+    int count = waves_terms(waves, time, terms);
+    double eta = elevation_sum(terms, count, point.x, point.y);
+    DriftShare share = drift_share(&waves->interior, point.x, point.y);
+    Vec3 sum = vec3(0, 0, 0);
+    for (int i = 0; i < count; i++) {
+        const WaveTerms *w = &terms[i];
+        WavePlace p = wave_place(w, point.x, point.y, mind(point.z, w->level + eta));
+        sum = motion_add(sum, w, driftless(w, p, share), w->weight);
+    }
+    return sum;
 }
 
 // ---------------------------------------------------------------------------- what to warn of
@@ -376,21 +436,26 @@ int waves_warnings(const Scene *scene, char *text, int size)
     double breaking = wave_breaking_height(2 * PI / length, depth);
     if (sea->height > 0.8 * breaking) {
         snprintf(line, sizeof line,
-                 "wave height %.3g m is %.0f %% of the breaking height %.3g m (Miche)", sea->height,
+                 "wave height %.3g m %s: %.0f %% of the breaking height 0.142 L tanh(kd) = %.3g m "
+                 "(Miche)",
+                 sea->height, sea->height > breaking ? "breaks" : "is near breaking",
                  100 * sea->height / breaking, breaking);
         warn(text, size, &count, line);
     }
     double resolution = sea->height / scene->fluid.spacing;
     if (sea->height > 0 && resolution < 5) {
-        snprintf(line, sizeof line, "wave height is %.2g spacings: under 5 waves lose height",
-                 resolution);
+        snprintf(line, sizeof line,
+                 "H/dp = %.2g: under 5 spacings to a wave height waves lose height", resolution);
         warn(text, size, &count, line);
     }
-    // Ursell's number: beyond 26 the second-order wave grows a false crest in its trough.
+    // Ursell's number: beyond 26 Stokes' waves grow a false crest in their trough.
     double ursell = sea->height * length * length / (depth * depth * depth);
-    if (ursell > 26) {
+    bool stokes = scene->waves.theory == WAVE_THEORY_STOKES2 ||
+                  scene->waves.theory == WAVE_THEORY_STOKES5 || sea->height > breaking;
+    if (ursell > 26 && stokes) {
         snprintf(line, sizeof line,
-                 "water is too shallow for second-order waves (Ursell number %.3g > 26)", ursell);
+                 "water is too shallow for Stokes' waves (Ursell number H L^2/d^3 = %.3g > 26)",
+                 ursell);
         warn(text, size, &count, line);
     }
     if (scene->domain.kind != DOMAIN_BASIN) return count;

@@ -10,15 +10,11 @@
 /// One regular wave train, ready for evaluation:
 /// theta = k ((x - centre_x) cos + (y - centre_y) sin) - omega (t - time_origin) + phase.
 typedef struct WaveTrain {
-    double amplitude;         ///< a = H/2 [m]; 0 = rest
-    double wave_number;       ///< k [1/m]
-    double angular_frequency; ///< omega [rad/s]
-    double cos_heading, sin_heading;
+    double amplitude;          ///< a = H/2 [m]; 0 = rest
     double phase;              ///< at the centre of the basin [rad] and `time_origin`
     double time_origin;        ///< [s]
     double centre_x, centre_y; ///< phases are matched there [m]
-    double depth;              ///< [m]
-    double level;              ///< still-water level [m]
+    WaveTerms terms;           ///< wave number, coefficients; phase terms and weights are not set
 } WaveTrain;
 
 /// A train laid over those before it. Its opacity b rises from 0 to 1 by a quintic smoothstep.
@@ -31,6 +27,14 @@ typedef struct WaveLayer {
 enum {
     WAVE_LAYERS_MAX = 5, ///< the last one is kept for rest
 };
+
+/// Where particles may drift with the wave: inside a basin they do, and the water carries nothing
+/// because it flows back below; towards the sides both fade over the zone's width, and what drifts
+/// turns down there. Width 0: no drift anywhere.
+typedef struct WaveInterior {
+    double min[2], max[2]; ///< sides [m]; +-1e30 = none
+    double width;          ///< [m]
+} WaveInterior;
 
 /// Everything about the waves that changes; plain data, copied by checkpoints.
 ///
@@ -51,6 +55,7 @@ typedef struct WaveState {
     bool active;                       ///< a change (or the starting ramp) is under way
     bool has_queued;                   ///< `queued` waits for its turn
     WaveTarget queued;
+    WaveInterior interior;
 } WaveState;
 
 /// k of omega^2 = g k tanh(k d) [1/m] (Airy); relative error below 1e-12.
@@ -76,37 +81,29 @@ WaveTarget waves_now(const WaveState *waves, double time);
 /// @param terms  filled, [WAVE_LAYERS_MAX]   @return how many
 int waves_terms(const WaveState *waves, double time, WaveTerms *terms);
 
-/// Second-order closed-orbit displacement of the column point whose mean place is `mean`
-/// (physics.md, basin), and its velocity and acceleration. Above still water (freeboard) a column
-/// moves with the point at still water: the orbits' growth with height would fold it.
+/// Closed-orbit displacement of the column point whose mean place is `mean` (physics.md, basin),
+/// and its velocity. Above still water (freeboard) a column moves with the point at still water:
+/// the orbits' growth with height would fold it.
 Vec3 waves_displacement(const WaveState *waves, Vec3 mean, double time);
 Vec3 waves_orbit_velocity(const WaveState *waves, Vec3 mean, double time);
-Vec3 waves_orbit_acceleration(const WaveState *waves, Vec3 mean, double time);
 
-/// Eulerian velocity at (x, min(z, eta)) less the Stokes drift: what the relaxation zone aims at.
+/// What the relaxation zone aims at: Eulerian velocity at (x, min(z, eta)) less, towards the sides,
+/// the drift of particles (WaveInterior).
 Vec3 waves_zone_velocity(const WaveState *waves, Vec3 point, double time);
 
 /// Incident elevation above still water [m], Eulerian velocity and local acceleration at
-/// (x, min(z, eta)), to second order. In the basin the water itself has waves_zone_velocity: the
-/// Stokes drift is returned at every depth.
+/// (x, min(z, eta)).
 double waves_elevation(const WaveState *waves, double x, double y, double time);
 Vec3 waves_velocity(const WaveState *waves, Vec3 point, double time);
 Vec3 waves_acceleration(const WaveState *waves, Vec3 point, double time);
 
-/// Many ring particles at once, in single precision (1e-6 of the amplitude): mean places →
-/// positions and velocities. Single-threaded: the caller splits the range. Arrays are [count][3],
-/// world [m], [m/s], [m/s^2]; `velocity` and `acceleration` may be NULL.
-void waves_ring_batch(const WaveState *waves, double time, int count, const float (*mean)[3],
-                      float (*position)[3], float (*velocity)[3]);
-void waves_ring_acceleration_batch(const WaveState *waves, double time, int count,
-                                   const float (*mean)[3], float (*acceleration)[3]);
-
 /// Places of many ring points in double precision: mean + waves_displacement to 1e-15. For callers
-/// that take the wall's velocity and acceleration by differences.
+/// that take the wall's velocity and acceleration by differences. Single-threaded: the caller
+/// splits the range.
 void waves_ring_places(const WaveState *waves, double time, int count, const Vec3 *mean,
                        Vec3 *place);
 
-/// waves_zone_velocity of many places [count]; y and v may be NULL (2-D).
+/// waves_zone_velocity of many places [count] in single precision; y and v may be NULL (2-D).
 void waves_zone_batch(const WaveState *waves, double time, int count, const float *x,
                       const float *y, const float *z, float *u, float *v, float *w);
 

@@ -66,13 +66,14 @@ TEST(heading_turns_by_full_circles_into_the_limits)
     CHECK_CONTAINS(error.message, "wave.heading_deg = 270: must be >= 0 and <= 180 deg");
 }
 
-TEST(a_wave_that_would_break_is_refused)
+TEST(a_wave_of_twice_the_breaking_height_is_refused)
 {
     load("tests/good_cases/steered.json");
     scene.waves.height_limits.max = 1;
-    CHECK(!ask(0.4, 1.26, NAN)); // 0.142 L tanh kd = 0.349 m at 1.26 s in 1.2 m
-    CHECK_CONTAINS(error.message, "<= 0.3489 m");
-    CHECK(ask(0.4, 2, NAN));
+    CHECK(ask(0.4, 1.26, NAN)); // 0.142 L tanh kd = 0.349 m at 1.26 s in 1.2 m: it breaks
+    CHECK(!ask(0.75, 1.26, NAN));
+    CHECK_CONTAINS(error.message, "<= 0.6977 m");
+    CHECK(ask(0.75, 2, NAN));
 }
 
 TEST(a_case_without_waves_takes_no_command)

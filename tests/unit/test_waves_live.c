@@ -120,7 +120,7 @@ TEST(a_modest_change_is_over_after_the_blend_and_then_is_the_new_wave)
     CHECK_NEAR(now.height, 0.2, 1e-15);
     CHECK_NEAR(now.period, 1.8, 1e-15);
     CHECK_NEAR(now.heading, -30 * DEGREE, 1e-12);
-    CHECK_NEAR(waves.layers[0].train.cos_heading, cos(30 * DEGREE), 1e-15);
+    CHECK_NEAR(waves.layers[0].train.terms.cos_heading, cos(30 * DEGREE), 1e-15);
 }
 
 TEST(a_reversal_takes_the_old_sea_down_before_the_new_comes_up)
@@ -140,7 +140,7 @@ TEST(a_reversal_takes_the_old_sea_down_before_the_new_comes_up)
     CHECK(highest < 0.5 * 0.3 * 1.25); // one wave's crest, second order included
     CHECK(quiet < 0.001);
     CHECK_NEAR(over, 1 + 1.5 + 1.5 * 1.6, 0.03); // T old, then 1.5 T new
-    CHECK_NEAR(waves.layers[0].train.cos_heading, -1, 1e-12);
+    CHECK_NEAR(waves.layers[0].train.terms.cos_heading, -1, 1e-12);
 }
 
 TEST(far_is_more_than_sixty_degrees_or_thirty_percent_and_360_is_no_turn)
@@ -174,7 +174,8 @@ TEST(the_phase_at_the_centre_is_carried_over)
     ask.period = 1.65; // now the phases part by at most pi (1/T - 1/T') D / 2 about the middle
     waves_command(&waves, scene, &ask, 9);
     double middle = 9 + 0.75 * 1.65;
-    CHECK_NEAR(waves_elevation(&waves, 0, 0, middle), waves_elevation(&before, 0, 0, middle), 1e-3);
+    CHECK_NEAR(waves_elevation(&waves, 0, 0, middle), waves_elevation(&before, 0, 0, middle),
+               0.01 * 0.3); // the crest of the longer wave is a little flatter
 }
 
 TEST(a_height_alone_scales_the_running_wave)
@@ -184,9 +185,10 @@ TEST(a_height_alone_scales_the_running_wave)
     WaveTarget ask = sea(0.15, 1.5, 0);
     waves_command(&waves, scene, &ask, 1);
     waves_update(&waves, scene, 7);
-    for (double x = -3; x < 3; x += 0.5) {
+    // along one wave from the centre, where phases meet; the lower wave is 2 % shorter
+    for (double x = -1.5; x < 1.5; x += 0.25) {
         double old = waves_displacement(&before, vec3(x, 0, -1), 7).x;
-        CHECK_NEAR(waves_displacement(&waves, vec3(x, 0, -1), 7).x, old / 2, 1e-4);
+        CHECK_NEAR(waves_displacement(&waves, vec3(x, 0, -1), 7).x, old / 2, 0.1 * 0.013);
     }
 }
 
