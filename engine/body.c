@@ -333,8 +333,9 @@ void body_advance(Body *body, const BodyScene *scene, double gravity, double tim
     Imposed imposed = imposed_at(body, scene, held, time + dt);
     Quat frame = heading_frame(body);
     Vec3 velocity = body->velocity, angular_velocity = body->angular_velocity;
-    Vec3 force = vec3_add(body->fluid_force, body->line_force);
-    Vec3 moment = frame_vector(frame, vec3_add(body->fluid_moment, body->line_moment));
+    Vec3 force = vec3_add(vec3_add(body->fluid_force, body->line_force), body->contact_force);
+    Vec3 moment = vec3_add(vec3_add(body->fluid_moment, body->line_moment), body->contact_moment);
+    moment = frame_vector(frame, moment);
     force.z -= body->mass * gravity;
 
     BodyMotion motion = body_motion(body);

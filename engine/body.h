@@ -18,6 +18,8 @@ typedef struct Body {
     Vec3 fluid_moment;         ///< about the centre of gravity, world axes [N m]
     Vec3 line_force;           ///< [N]
     Vec3 line_moment;          ///< [N m]
+    Vec3 contact_force;        ///< of bed, walls and other bodies [N]
+    Vec3 contact_moment;       ///< [N m]
     // constant after creation
     Vec3 reference_position; ///< of the centre of gravity [m]
     Quat reference_attitude;

@@ -10,6 +10,7 @@
 #include "backend/backend.h"
 #include "body.h"
 #include "carve.h"
+#include "contact.h"
 #include "fill.h"
 #include "slamming.h"
 #include "waves.h"
@@ -183,6 +184,11 @@ static void choose_effects(const Scene *scene, Plan *plan, const Fill *fill)
              scene->body_count, fill->body_count);
     set_effect(plan, EFFECT_BODIES, scene->body_count > 0,
                (size_t)MOVING_BYTES * (size_t)fill->body_count, text);
+    bool touch = contact_possible(scene);
+    set_effect(plan, EFFECT_CONTACTS, touch, 0,
+               touch               ? "bodies that may move into bed, walls or each other"
+               : scene->body_count ? "no body moves freely, or contacts.kind is none"
+                                   : "no bodies");
     size_t nodes = 0;
     for (int l = 0; l < scene->line_count; l++)
         nodes += (size_t)scene->lines[l].segments + 1;

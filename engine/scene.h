@@ -167,6 +167,14 @@ typedef struct PointScene {
     double added_mass; ///< coefficient Ca: added mass over displaced mass [-]
 } PointScene;
 
+typedef enum ContactKind { CONTACTS_AUTO, CONTACTS_NONE } ContactKind;
+
+/// What happens when bodies touch each other, the bed or walls.
+typedef struct Contacts {
+    ContactKind kind;
+    double friction; ///< Coulomb's coefficient [-]
+} Contacts;
+
 /// An end of a line: at a point of the scene, or fixed on earth or on a body.
 typedef struct LineEnd {
     int point;     ///< index into points, -1 = none: the end is held by what follows
@@ -282,6 +290,7 @@ typedef struct Scene {
     Waves waves;
     int body_count;
     BodyScene bodies[SCENE_BODIES_MAX];
+    Contacts contacts;
     int line_count;
     LineScene lines[SCENE_LINES_MAX];
     int point_count;

@@ -141,6 +141,12 @@ static const JsonField PROBE_FIELDS[] = {
 };
 static const JsonTable PROBE_TABLE = {PROBE_FIELDS, COUNT(PROBE_FIELDS), NULL};
 
+static const JsonField CONTACT_FIELDS[] = {
+    {"kind", FIELD_CHOICE, IN_CASE(scene.contacts.kind), .choices = {"auto", "none"}},
+    {"friction", FIELD_NUMBER, IN_CASE(scene.contacts.friction), .max = 2},
+};
+static const JsonTable CONTACT_TABLE = {CONTACT_FIELDS, COUNT(CONTACT_FIELDS), NULL};
+
 static const JsonField OUTPUT_FIELDS[] = {
     {"series_interval_s", FIELD_NUMBER, IN_CASE(scene.outputs.series_interval), .min = 0.0001,
      .max = 100, .unit = "s"},
@@ -168,6 +174,7 @@ static const JsonField CASE_FIELDS[] = {
     {"bodies", FIELD_LIST, IN_CASE(scene.bodies), .table = &BODY_TABLE,
      .item_size = sizeof(BodyScene), .counter_offset = offsetof(CaseFile, scene.body_count),
      .count_max = SCENE_BODIES_MAX, .item_default = body_default},
+    {"contacts", FIELD_OBJECT, .table = &CONTACT_TABLE},
     {"lines", FIELD_LIST, IN_CASE(scene.lines), .table = &LINE_TABLE,
      .item_size = sizeof(LineScene), .counter_offset = offsetof(CaseFile, scene.line_count),
      .count_max = SCENE_LINES_MAX, .item_default = line_default},

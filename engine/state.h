@@ -65,6 +65,7 @@ typedef struct State {
     Vec3 *centres;                                    ///< of gravity [body_count]
     EnergyLevels energy_start;                        ///< at t = 0, where the case asks for it
     Checkpoint checkpoint;                            ///< the last good state, for roll-back
+    double contact_seconds;                           ///< part of body_seconds
     double line_seconds, body_seconds, probe_seconds; ///< wall time of host passes [s]
     double pair_cost[2]; ///< share of viscosity and diffusion in their sweeps [-]
     Arena arena;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "contact.h"
 #include "engine.h"
 #include "health.h"
 #include "piston.h"
@@ -76,6 +77,11 @@ static void advance_bodies(const Scene *scene, const Plan *plan, State *state, d
         const SlammingScene *probe = &scene->slammings[i];
         slamming_advance(&state->slammings[i], probe, scene, &state->bodies[probe->body],
                          &plan->bodies[probe->body].geometry, dt);
+    }
+    if (plan->effects[EFFECT_CONTACTS].active) {
+        double lap = wall_clock();
+        contact_loads(scene, plan, state->bodies);
+        state->contact_seconds += wall_clock() - lap;
     }
     for (int b = 0; b < scene->body_count; b++) {
         Body *body = &state->bodies[b];
@@ -192,7 +198,8 @@ static void share_clocks(State *state)
     e[EFFECT_RING] = e[EFFECT_PISTON] = 0;
     e[EFFECT_RING] = c[CLOCK_DUMMIES];
     e[EFFECT_ZONE] = c[CLOCK_ZONE];
-    e[EFFECT_BODIES] = c[CLOCK_LOADS] + state->body_seconds;
+    e[EFFECT_BODIES] = c[CLOCK_LOADS] + state->body_seconds - state->contact_seconds;
+    e[EFFECT_CONTACTS] = state->contact_seconds;
     e[EFFECT_LINES] = state->line_seconds;
     e[EFFECT_GAUGES] = state->probe_seconds;
     state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] + c[CLOCK_MOMENTUM] +
