@@ -35,7 +35,7 @@ Scene scene_default(void)
     waves->height_limits.min = waves->height_limits.max = NAN;
     waves->period_limits = waves->heading_limits = waves->height_limits;
 
-    scene.contacts.friction = 0.3; // wet steel on steel or concrete
+    scene.contacts.friction = 0.3;        // wet steel on steel or concrete
     scene.outputs.series_interval = 0.02; // 50 a second: 60 samples in the shortest wave of a flume
     scene.camera.target = none;
     scene.camera.distance = NAN;
