@@ -23,14 +23,48 @@ EnergyLevels energy_levels(const Scene *scene, const State *state)
     return levels;
 }
 
-double *energy_sample(const Scene *scene, const State *state, double *row)
+int energy_columns(const Scene *scene, const State *state, EnergyColumn *column)
 {
-    EnergyLevels now = energy_levels(scene, state);
-    const EnergyLevels *start = &state->energy_start;
-    *row++ = now.kinetic;
-    *row++ = now.potential - start->potential;
-    *row++ = now.compressible - start->compressible;
-    if (scene->body_count) *row++ = now.bodies - start->bodies;
-    if (scene->line_count) *row++ = now.lines - start->lines;
-    return row;
+    if (scene->energy == ENERGY_NONE) return 0;
+    EnergyLevels now = {0}, start = {0};
+    FluidWorks w = {0};
+    double line_work = 0;
+    if (state) {
+        now = energy_levels(scene, state);
+        start = state->energy_start;
+        w = state->backend->works(state->particles);
+        line_work = state->line_work;
+    }
+    bool waves = scene->waves.kind != WAVES_NONE, budget = scene->energy == ENERGY_BUDGET;
+    bool basin = waves && scene->domain.kind == DOMAIN_BASIN;
+    bool flume = waves && scene->domain.kind == DOMAIN_FLUME;
+    // velocities are half a step old; the last step says how they go on
+    double gained = 0.5 * w.last_kick + now.kinetic - start.kinetic + now.potential -
+                    start.potential + now.compressible - start.compressible;
+    double given =
+        w.viscosity + w.diffusion + w.ring + w.piston + w.bodies + w.walls + w.zone + w.limits;
+    const struct {
+        bool present;
+        EnergyColumn column;
+    } all[ENERGY_COLUMNS_MAX] = {
+        {true, {"kinetic_j", now.kinetic}},
+        {true, {"potential_j", now.potential - start.potential}},
+        {true, {"compressible_j", now.compressible - start.compressible}},
+        {scene->body_count, {"bodies_j", now.bodies - start.bodies}},
+        {scene->line_count, {"lines_j", now.lines - start.lines}},
+        {budget && flume, {"work_paddle_j", w.piston}},
+        {budget && basin, {"work_ring_j", w.ring}},
+        {budget && waves, {"work_zone_j", w.zone}},
+        {budget && scene->body_count, {"work_bodies_j", w.bodies}},
+        {budget && scene->line_count, {"work_lines_j", line_work}},
+        {budget, {"work_walls_j", w.walls}},
+        {budget && scene->fluid.alpha > 0, {"viscosity_j", w.viscosity}},
+        {budget && scene->fluid.delta > 0, {"diffusion_j", w.diffusion}},
+        {budget, {"limits_j", w.limits}},
+        {budget, {"residual_j", gained - given}},
+    };
+    int count = 0;
+    for (int i = 0; i < ENERGY_COLUMNS_MAX; i++)
+        if (all[i].present) column[count++] = all[i].column;
+    return count;
 }

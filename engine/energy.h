@@ -9,8 +9,17 @@
 /// it and bodies drag along counts to the water.
 EnergyLevels energy_levels(const Scene *scene, const State *state);
 
-/// Values of the columns `energy.…_j` of this scene, as docs/case_file.md says.
-/// @param row  where they go   @return behind the last one
-double *energy_sample(const Scene *scene, const State *state, double *row);
+enum { ENERGY_COLUMNS_MAX = 16 };
+
+/// A column `energy.…` of the series, as docs/case_file.md says.
+typedef struct EnergyColumn {
+    const char *name;
+    double value; ///< [J]
+} EnergyColumn;
+
+/// The columns that belong to this scene and their values now.
+/// @param state   NULL: names only
+/// @param column  [ENERGY_COLUMNS_MAX]   @return how many
+int energy_columns(const Scene *scene, const State *state, EnergyColumn *column);
 
 #endif

@@ -18,6 +18,7 @@ void health_checkpoint(const Scene *scene, State *state)
     c->time = state->time;
     c->step = state->step;
     c->waves = state->waves;
+    c->line_work = state->line_work;
     memcpy(c->bodies, state->bodies, (size_t)scene->body_count * sizeof(Body));
     memcpy(c->slammings, state->slammings, (size_t)scene->slamming_count * sizeof(Slamming));
     for (int l = 0; l < scene->line_count; l++)
@@ -33,6 +34,7 @@ static void roll_back(const Scene *scene, State *state)
     state->time = c->time;
     state->step = c->step;
     state->waves = c->waves;
+    state->line_work = c->line_work;
     memcpy(state->bodies, c->bodies, (size_t)scene->body_count * sizeof(Body));
     memcpy(state->slammings, c->slammings, (size_t)scene->slamming_count * sizeof(Slamming));
     for (int l = 0; l < scene->line_count; l++)

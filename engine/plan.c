@@ -153,6 +153,8 @@ static void name_effects(Plan *plan)
 /// Bytes that one more particle of each set takes: its slots, the checkpoint, its share of the
 /// lists of neighbours; and what every run takes. Measured: test_memory compares.
 enum { FLUID_BYTES = 150, FIXED_BYTES = 130, MOVING_BYTES = 270, RUN_BYTES = 2000000 };
+/// And per fluid particle where works are measured, padding of clusters included.
+enum { WORKS_BYTES = 70 };
 
 static void choose_effects(const Scene *scene, Plan *plan, const Fill *fill)
 {
@@ -212,8 +214,12 @@ static void choose_effects(const Scene *scene, Plan *plan, const Fill *fill)
     snprintf(text, sizeof text, scene->green_water_count ? "probes.green_water: %d" : "no decks",
              scene->green_water_count);
     set_effect(plan, EFFECT_GREEN_WATER, scene->green_water_count > 0, 0, text);
-    set_effect(plan, EFFECT_ENERGY, scene->energy != ENERGY_NONE, 0,
-               scene->energy == ENERGY_NONE ? "probes.energy is none" : "probes.energy: levels");
+    static const char *const energies[] = {"probes.energy is none", "probes.energy: levels",
+                                           "probes.energy: budget; sweeps run thrice"};
+    bool works = scene->energy == ENERGY_BUDGET;
+    set_effect(plan, EFFECT_ENERGY, scene->energy != ENERGY_NONE,
+               works ? (size_t)WORKS_BYTES * (size_t)fill->fluid_count : 0,
+               energies[scene->energy]);
 }
 
 static void count_bytes(Plan *plan, const Fill *fill)

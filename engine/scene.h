@@ -266,6 +266,7 @@ typedef struct GreenWaterScene {
 typedef enum EnergyProbe {
     ENERGY_NONE,
     ENERGY_LEVELS, ///< of water, bodies and lines, at each sample
+    ENERGY_BUDGET, ///< and what each effect gives and takes, at each step
 } EnergyProbe;
 
 typedef struct Outputs {

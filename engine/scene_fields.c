@@ -137,7 +137,7 @@ static const JsonField PROBE_FIELDS[] = {
      .item_size = sizeof(GreenWaterScene),
      .counter_offset = offsetof(CaseFile, scene.green_water_count),
      .count_max = SCENE_GREEN_WATERS_MAX},
-    {"energy", FIELD_CHOICE, IN_CASE(scene.energy), .choices = {"none", "levels"}},
+    {"energy", FIELD_CHOICE, IN_CASE(scene.energy), .choices = {"none", "levels", "budget"}},
 };
 static const JsonTable PROBE_TABLE = {PROBE_FIELDS, COUNT(PROBE_FIELDS), NULL};
 

@@ -17,16 +17,13 @@ static const char *const PROBE_COLUMNS[] = {"pressure_pa"};
 static const char *const RUN_UP_COLUMNS[] = {"run_up_m"};
 static const char *const SLAMMING_COLUMNS[] = {"slam_fx_n", "slam_fy_n", "slam_fz_n"};
 static const char *const GREEN_COLUMNS[] = {"green_volume_m3", "green_height_m"};
-static const char *const WATER_ENERGY[] = {"kinetic_j", "potential_j", "compressible_j"};
-static const char *const BODY_ENERGY[] = {"bodies_j"};
-static const char *const LINE_ENERGY[] = {"lines_j"};
 
 #define COUNT_OF(array) (int)(sizeof(array) / sizeof *(array))
 
 static_assert(1 + SCENE_BODIES_MAX * COUNT_OF(BODY_COLUMNS) +
                       SCENE_LINES_MAX * COUNT_OF(LINE_COLUMNS) + SCENE_GAUGES_MAX +
                       SCENE_PRESSURE_PROBES_MAX + SCENE_RUN_UPS_MAX + 3 * SCENE_SLAMMINGS_MAX +
-                      2 * SCENE_GREEN_WATERS_MAX + 5 <=
+                      2 * SCENE_GREEN_WATERS_MAX + ENERGY_COLUMNS_MAX <=
                   SERIES_COLUMNS_MAX,
               "every scene fits into a table");
 static_assert(SCENE_NAME_SIZE + 24 <= SERIES_COLUMN_SIZE, "every name fits into a column's");
@@ -56,10 +53,10 @@ void series_table(const Scene *scene, SeriesTable *table)
         add_columns(table, scene->slammings[i].name, SLAMMING_COLUMNS, COUNT_OF(SLAMMING_COLUMNS));
     for (int i = 0; i < scene->green_water_count; i++)
         add_columns(table, scene->green_waters[i].name, GREEN_COLUMNS, COUNT_OF(GREEN_COLUMNS));
-    if (scene->energy == ENERGY_NONE) return;
-    add_columns(table, "energy", WATER_ENERGY, COUNT_OF(WATER_ENERGY));
-    if (scene->body_count) add_columns(table, "energy", BODY_ENERGY, 1);
-    if (scene->line_count) add_columns(table, "energy", LINE_ENERGY, 1);
+    EnergyColumn energy[ENERGY_COLUMNS_MAX];
+    int energies = energy_columns(scene, NULL, energy);
+    for (int i = 0; i < energies; i++)
+        add_columns(table, "energy", &energy[i].name, 1);
 }
 
 static double *add_vector(double *row, Vec3 v)
@@ -108,5 +105,8 @@ void series_sample(const Scene *scene, const Plan *plan, const State *state, dou
         *row++ = water.volume;
         *row++ = water.height;
     }
-    if (scene->energy != ENERGY_NONE) energy_sample(scene, state, row);
+    EnergyColumn energy[ENERGY_COLUMNS_MAX];
+    int energies = energy_columns(scene, state, energy);
+    for (int i = 0; i < energies; i++)
+        *row++ = energy[i].value;
 }

@@ -30,6 +30,7 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     s.level = scene->fluid.level;
     s.largest_travel = 0.25 * plan->largest_speed * plan->time_step;
     s.pair_mask = plan->pair_mask;
+    s.works = scene->energy == ENERGY_BUDGET;
     const double low[3] = {d->min.x, d->min.y, d->min.z};
     // spray may fly; waves of a basin must stay inside
     const double high[3] = {d->max.x, d->max.y, INFINITY};

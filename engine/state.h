@@ -28,6 +28,7 @@ typedef struct Checkpoint {
     double time; ///< NAN before the first one
     int64_t step;
     WaveState waves;
+    double line_work;
     Body *bodies;
     double **lines; ///< line_state_save of each
     Slamming *slammings;
@@ -63,6 +64,7 @@ typedef struct State {
     BodyLoad *loads;                                  ///< of the last forces call [body_count]
     BodyPose *poses;                                  ///< at the end of the step [body_count]
     Vec3 *centres;                                    ///< of gravity [body_count]
+    double line_work;                                 ///< done on bodies by lines [J], for a budget
     EnergyLevels energy_start;                        ///< at t = 0, where the case asks for it
     Checkpoint checkpoint;                            ///< the last good state, for roll-back
     double contact_seconds;                           ///< part of body_seconds

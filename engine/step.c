@@ -84,8 +84,13 @@ static void advance_bodies(const Scene *scene, const Plan *plan, State *state, d
         state->contact_seconds += wall_clock() - lap;
     }
     for (int b = 0; b < scene->body_count; b++) {
-        Body *body = &state->bodies[b];
+        Body *body = &state->bodies[b], before = *body;
         body_advance(body, &scene->bodies[b], scene->fluid.gravity, state->time, dt);
+        if (scene->energy != ENERGY_BUDGET) continue;
+        Vec3 v = vec3_add(before.velocity, body->velocity);
+        Vec3 w = vec3_add(before.angular_velocity, body->angular_velocity);
+        state->line_work +=
+            0.5 * dt * (vec3_dot(body->line_force, v) + vec3_dot(body->line_moment, w));
     }
 }
 
@@ -202,6 +207,7 @@ static void share_clocks(State *state)
     e[EFFECT_CONTACTS] = state->contact_seconds;
     e[EFFECT_LINES] = state->line_seconds;
     e[EFFECT_GAUGES] = state->probe_seconds;
+    e[EFFECT_ENERGY] = c[CLOCK_WORKS];
     state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] + c[CLOCK_MOMENTUM] +
                           c[CLOCK_DENSITY] - e[EFFECT_VISCOSITY] - e[EFFECT_DIFFUSION];
 }

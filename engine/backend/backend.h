@@ -46,6 +46,7 @@ typedef struct BackendSetup {
     double gravity, level; ///< [m/s^2], still-water z [m]
     double largest_travel; ///< expected per step, for the skin [m]
     unsigned pair_mask;    ///< PAIR_… bits
+    bool works;            ///< measure FluidWorks: every sweep thrice
 } BackendSetup;
 
 /// Force and moment of the fluid on a body; moment about `about` of the same call.
@@ -98,6 +99,17 @@ typedef struct FluidEnergy {
     double compressible; ///< of Tait's law, above that of water at rest density
 } FluidEnergy;
 
+/// Energy given to the water since creation, by what gave it [J]; what takes it counts negative.
+typedef struct FluidWorks {
+    double viscosity, diffusion;
+    double ring, piston, bodies; ///< pushes of moving dummies times their velocities
+    double walls;     ///< all else between water and dummies: slip through the extrapolation
+    double zone;      ///< relaxation
+    double limits;    ///< tension floor and barrier
+    double pressure;  ///< of water on water: the error of stepping in time
+    double last_kick; ///< kinetic energy that the last step gave [J]
+} FluidWorks;
+
 /// Wall time of the last forces + advance [s], by what it was spent on.
 typedef enum BackendClock {
     CLOCK_SORT,
@@ -108,6 +120,7 @@ typedef enum BackendClock {
     CLOCK_DUMMIES,
     CLOCK_INTEGRATE,
     CLOCK_ZONE,
+    CLOCK_WORKS,
     CLOCK_COUNT
 } BackendClock;
 
@@ -153,6 +166,7 @@ typedef struct BackendTable {
     void (*columns)(const Backend *backend, const BodyPose *pose, Vec3 min, Vec3 max,
                     const int count[2], double *volume);
     FluidEnergy (*energy)(const Backend *backend);
+    FluidWorks (*works)(const Backend *backend); ///< zero unless asked for at creation
     /// Everything that changes, for roll-back.
     size_t (*state_size)(const Backend *backend);
     void (*save)(const Backend *backend, void *to);

@@ -134,6 +134,7 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     b->barrier_top = to_coordinate(&b->grid, 2, setup->barrier_top);
     b->barrier_depth = (int32_t)(2 * setup->spacing / b->grid.unit);
     TRY(take_arrays(b, start, arena, error));
+    if (setup->works) TRY(works_create(b, arena, error));
     place_particles(b, start);
     b->sweep = make_sweep(b);
     b->excess_floor =
@@ -326,12 +327,20 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
     LAP(CLOCK_INTEGRATE);
     extrapolate_walls(b);
     LAP(CLOCK_EXTRAPOLATE);
+    if (b->setup.works) {
+        works_before_momentum(b);
+        LAP(CLOCK_WORKS);
+    }
     cpu_sweep_fluid(b, b->table->acceleration[(b->setup.pair_mask & PAIR_VISCOSITY) != 0]);
     LAP(CLOCK_MOMENTUM);
     if (b->setup.body_count) {
         memset(loads, 0, (size_t)b->setup.body_count * sizeof *loads);
         sum_loads(b, about, loads);
         LAP(CLOCK_LOADS);
+    }
+    if (b->setup.works) {
+        works_after_forces(b);
+        LAP(CLOCK_WORKS);
     }
 #undef LAP
     return true;
@@ -364,7 +373,7 @@ static size_t cpu_state_size(const Backend *b)
 {
     Backend *own = (Backend *)b;
     return set_transfer(&own->fluid, NULL, NULL) + set_transfer(&own->moving, NULL, NULL) +
-           sizeof(bool);
+           sizeof(bool) + (b->setup.works ? sizeof(FluidWorks) : 0);
 }
 
 static void cpu_save(const Backend *b, void *to)
@@ -372,17 +381,23 @@ static void cpu_save(const Backend *b, void *to)
     Backend *own = (Backend *)b;
     size_t fluid = set_transfer(&own->fluid, to, NULL);
     size_t moving = set_transfer(&own->moving, (char *)to + fluid, NULL);
-    memcpy((char *)to + fluid + moving, &b->first_step, sizeof(bool));
+    char *rest = (char *)to + fluid + moving;
+    memcpy(rest, &b->first_step, sizeof(bool));
+    if (b->setup.works) memcpy(rest + sizeof(bool), &b->works.sums, sizeof(FluidWorks));
 }
 
 static void cpu_restore(Backend *b, const void *from)
 {
     size_t fluid = set_transfer(&b->fluid, NULL, from);
     size_t moving = set_transfer(&b->moving, NULL, (const char *)from + fluid);
-    memcpy(&b->first_step, (const char *)from + fluid + moving, sizeof(bool));
+    const char *rest = (const char *)from + fluid + moving;
+    memcpy(&b->first_step, rest, sizeof(bool));
+    if (b->setup.works) memcpy(&b->works.sums, rest + sizeof(bool), sizeof(FluidWorks));
     b->sorted = b->boxes_fresh = false;
     b->table->update_pressure(b);
 }
+
+static FluidWorks cpu_works(const Backend *b) { return b->works.sums; }
 
 static const double *cpu_clocks(const Backend *b) { return b->clock; }
 
@@ -447,6 +462,7 @@ const BackendTable *backend_cpu(void)
         .wetness = cpu_wetness,
         .columns = cpu_columns,
         .energy = cpu_energy,
+        .works = cpu_works,
         .state_size = cpu_state_size,
         .save = cpu_save,
         .restore = cpu_restore,

@@ -42,6 +42,23 @@ typedef struct RowPruning {
 /// Bits of the row are about to be written.
 RowPruning rows_pruned(Rows *rows, int row, double dt, double skin);
 
+/// Power of moving dummies on the water by owner [W].
+typedef struct MovingPower {
+    double ring, piston, bodies;
+} MovingPower;
+
+/// What measuring works keeps; see cpu_works.c. Arrays are [slot_capacity of the fluid].
+typedef struct Works {
+    FluidWorks sums;
+    float *rate[3][3];  ///< of water on water, with walls, with the pair effects; three axes
+    float *velocity[3]; ///< before the kick, then after relaxation [m/s]
+    float *excess;      ///< before the density step [-]
+    int32_t *height;    ///< after the first half drift [unit]
+    MovingPower power;  ///< with the velocities before the step
+    int16_t *anybody;   ///< [moving] owners as if all were one body's
+    ParticleSet *none;  ///< a set without particles
+} Works;
+
 struct Backend {
     BackendSetup setup;
     Grid grid;
@@ -64,6 +81,7 @@ struct Backend {
     bool first_step;  ///< dummies have no velocity yet
     int64_t sorts;
     double clock[CLOCK_COUNT];
+    Works works;
 };
 
 double cpu_clock(void);
@@ -80,6 +98,13 @@ double cpu_pressure(Backend *backend, Vec3 point, Vec3 normal);
 void cpu_wetness(Backend *backend, Vec3 from, Vec3 to, int count, double *share);
 void cpu_columns(const Backend *backend, const BodyPose *pose, Vec3 min, Vec3 max,
                  const int count[2], double *volume);
+bool works_create(Backend *backend, Arena *arena, Error *error);
+void works_before_momentum(Backend *backend);
+void works_after_forces(Backend *backend);
+void works_before_kick(Backend *backend);
+void works_after_kick(Backend *backend, const Advance *advance);
+void works_after_density(Backend *backend);
+void works_after_step(Backend *backend, double dt);
 FluidEnergy cpu_energy(const Backend *backend);
 void cpu_statistics(const Backend *backend, BackendStatistics *statistics);
 

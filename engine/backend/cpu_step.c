@@ -387,17 +387,33 @@ void AT_LEVEL(step_advance)(Backend *b, const Advance *advance, ParticleSums *su
     b->last_step = advance->dt;
     if (b->moving.count) move_dummies_halfway(b, advance);
     LAP(CLOCK_DUMMIES);
+    if (b->setup.works) {
+        works_before_kick(b);
+        LAP(CLOCK_WORKS);
+    }
     kick_and_drift(b, advance);
     start = cpu_clock();
+    if (b->setup.works) {
+        works_after_kick(b, advance);
+        LAP(CLOCK_WORKS);
+    }
     rows_measure(&b->rows, &b->grid, b->setup.threads);
     rows_move(&b->rows, &b->grid, 0.5 * advance->dt);
     cpu_prune(b);
     LAP(CLOCK_SORT);
     cpu_sweep_fluid(b, b->table->density[(b->setup.pair_mask & PAIR_DIFFUSION) != 0]);
     LAP(CLOCK_DENSITY);
+    if (b->setup.works) {
+        works_after_density(b);
+        LAP(CLOCK_WORKS);
+    }
     finish_fluid(b, (float)advance->dt, sums);
     if (b->moving.count) finish_dummies(b);
     rows_move(&b->rows, &b->grid, 0.5 * advance->dt);
     LAP(CLOCK_INTEGRATE);
+    if (b->setup.works) {
+        works_after_step(b, advance->dt);
+        LAP(CLOCK_WORKS);
+    }
 #undef LAP
 }
