@@ -76,8 +76,14 @@ static void prescribed(const Freedom *freedom, double mean, double time, double 
                        double *rate)
 {
     double omega = 2 * PI / freedom->period, angle = omega * time + freedom->phase;
-    *value = mean + freedom->amplitude * sin(angle);
-    *rate = freedom->amplitude * omega * cos(angle);
+    double ramp = 1, ramp_rate = 0;
+    if (time < freedom->ramp) {
+        double grown = PI * time / freedom->ramp;
+        ramp = 0.5 * (1 - cos(grown));
+        ramp_rate = 0.5 * PI / freedom->ramp * sin(grown);
+    }
+    *value = mean + ramp * freedom->amplitude * sin(angle);
+    *rate = freedom->amplitude * (ramp * omega * cos(angle) + ramp_rate * sin(angle));
 }
 
 Body body_create(const BodyScene *scene, const BodyGeometry *geometry)

@@ -80,6 +80,28 @@ static void choose_time_step(const Scene *scene, Plan *plan)
     }
 }
 
+/// Steps in the shortest prescribed or wave period, where lines are all that is stepped: at that
+/// many the implicit step is right to 0.5 % of a snap's peak (docs/mooring.md).
+static const double STEPS_PER_PERIOD = 2000;
+
+/// Lines alone: the given step, or a fine part of the shortest period that divides the time between
+/// samples, so that samples fall on the times asked for.
+static void choose_lines_step(const Scene *scene, Plan *plan)
+{
+    double interval = scene->outputs.series_interval, shortest = INFINITY;
+    if (scene->waves.kind != WAVES_NONE) shortest = scene->waves.period_limits.min;
+    for (int b = 0; b < scene->body_count; b++)
+        for (int f = 0; f < 6; f++)
+            if (scene->bodies[b].freedoms[f].kind == FREEDOM_PRESCRIBED)
+                shortest = mind(shortest, scene->bodies[b].freedoms[f].period);
+    plan->time_step = interval / ceil(maxd(1, interval * STEPS_PER_PERIOD / shortest) - 1e-9);
+    snprintf(plan->time_step_limit, sizeof plan->time_step_limit, "%s",
+             isinf(shortest) ? "outputs.series_interval_s" : "a 2000th of the shortest period");
+    if (isnan(scene->lines_step)) return;
+    plan->time_step = scene->lines_step;
+    snprintf(plan->time_step_limit, sizeof plan->time_step_limit, "domain.time_step_s");
+}
+
 static bool mesh_bodies(const Scene *scene, Plan *plan, Error *error)
 {
     size_t count = (size_t)scene->body_count;
@@ -88,6 +110,10 @@ static bool mesh_bodies(const Scene *scene, Plan *plan, Error *error)
     for (int b = 0; b < scene->body_count; b++) {
         BodyPlan *body = &plan->bodies[b];
         TRY(body_geometry_create(scene, b, &plan->arena, &body->geometry, error));
+        Body start = body_create(&scene->bodies[b], &body->geometry);
+        body->start_origin = body_point(&start, vec3(0, 0, 0));
+        body->start_attitude = start.attitude;
+        if (scene->domain.kind == DOMAIN_LINES) continue; // nobody pushes it with particles
         TRY(hull_particles(&body->geometry.mesh, dp, plan->wall_layers * dp,
                            scene->domain.dimensions, &plan->arena, &body->particles,
                            &body->particle_count, error));
@@ -95,9 +121,6 @@ static bool mesh_bodies(const Scene *scene, Plan *plan, Error *error)
                                  &body->distance, error));
         TRY(carve_grid_create(body->particles, body->particle_count, dp, &plan->arena,
                               &body->dummies, error));
-        Body start = body_create(&scene->bodies[b], &body->geometry);
-        body->start_origin = body_point(&start, vec3(0, 0, 0));
-        body->start_attitude = start.attitude;
     }
     return true;
 }
@@ -161,9 +184,11 @@ static void choose_effects(const Scene *scene, Plan *plan, const Fill *fill)
     const Fluid *fluid = &scene->fluid;
     char text[160];
     snprintf(text, sizeof text, "fluid.alpha = %g", fluid->alpha);
-    set_effect(plan, EFFECT_VISCOSITY, fluid->alpha > 0, 0, text);
+    bool water = scene->domain.kind != DOMAIN_LINES;
+    set_effect(plan, EFFECT_VISCOSITY, water && fluid->alpha > 0, 0, text);
     snprintf(text, sizeof text, "fluid.delta = %g", fluid->delta);
-    set_effect(plan, EFFECT_DIFFUSION, fluid->delta > 0, 4 * (size_t)fill->fluid_count, text);
+    set_effect(plan, EFFECT_DIFFUSION, water && fluid->delta > 0, 4 * (size_t)fill->fluid_count,
+               text);
     snprintf(text, sizeof text, "domain.kind: %d dummy particles in %d layers", fill->wall_count,
              plan->wall_layers);
     set_effect(plan, EFFECT_WALLS, fill->wall_count > 0,
@@ -243,8 +268,39 @@ static bool check_memory(const Scene *scene, const Plan *plan, Error *error)
                      (double)limit / 1e9, scene->fluid.spacing * factor);
 }
 
+/// A domain of lines: nothing of what particles need.
+static bool build_lines(const Scene *scene, Plan *plan, Error *error)
+{
+    plan->backend = backend_none()->name;
+    snprintf(plan->variant, sizeof plan->variant, "%s", backend_none()->variant());
+    snprintf(plan->sound_speed_because, sizeof plan->sound_speed_because, "no particles");
+    name_effects(plan);
+    TRY(mesh_bodies(scene, plan, error));
+    TRY(hang_lines(scene, plan, error));
+    choose_lines_step(scene, plan);
+    Fill fill = {0};
+    choose_effects(scene, plan, &fill);
+    count_bytes(plan, &fill);
+    return true;
+}
+
+/// What a user of a domain of lines should read.
+static void lines_warnings(const Scene *scene, char *text, size_t size)
+{
+    size_t used = 0;
+    for (int b = 0; b < scene->body_count; b++)
+        for (int f = 0; f < 3; f++) {
+            if (scene->bodies[b].freedoms[f].kind != FREEDOM_FREE || used + 100 > size) continue;
+            used += (size_t)snprintf(text + used, size - used,
+                                     "%sno water carries body %s, which is free to move",
+                                     used ? "; " : "", scene->bodies[b].name);
+            break;
+        }
+}
+
 static bool build(const Scene *scene, Plan *plan, Error *error)
 {
+    if (scene->domain.kind == DOMAIN_LINES) return build_lines(scene, plan, error);
     const BackendTable *table = backend_choose(plan->options.backend, error);
     TRY(table);
     plan->backend = table->name;
@@ -285,7 +341,10 @@ bool plan_build(const Scene *scene, const EngineOptions *options, Plan *plan, Er
     plan->arena = arena_create(0);
     plan->predicted_slowness = NAN;
     if (build(scene, plan, error)) {
-        waves_warnings(scene, plan->warnings, sizeof plan->warnings);
+        if (scene->domain.kind == DOMAIN_LINES)
+            lines_warnings(scene, plan->warnings, sizeof plan->warnings);
+        else
+            waves_warnings(scene, plan->warnings, sizeof plan->warnings);
         return true;
     }
     plan_destroy(plan);

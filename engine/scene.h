@@ -35,6 +35,7 @@ typedef enum DomainKind {
     DOMAIN_TANK,  ///< closed by walls on all sides and the bed
     DOMAIN_FLUME, ///< piston at x min, damping beach at x max, walls at y
     DOMAIN_BASIN, ///< ring of wave-driven columns and relaxation zone on all lateral sides
+    DOMAIN_LINES, ///< no particles at all: lines and bodies in the incident wave
 } DomainKind;
 
 typedef struct Domain {
@@ -109,7 +110,8 @@ typedef enum BodyShape {
 typedef enum FreedomKind {
     FREEDOM_FREE,
     FREEDOM_FIXED,
-    FREEDOM_PRESCRIBED, ///< amplitude * sin(2 pi t / period + phase) about the reference pose
+    FREEDOM_PRESCRIBED, ///< ramp * amplitude * sin(2 pi t / period + phase) about the reference
+                        ///< pose
     FREEDOM_SPRING,     ///< free, with -stiffness (x - rest) - damping v added
 } FreedomKind;
 
@@ -118,6 +120,7 @@ typedef struct Freedom {
     FreedomKind kind;
     double amplitude;       ///< [m] or [rad]
     double period, phase;   ///< [s], [rad]
+    double ramp;            ///< prescribed: grows as (1 - cos(pi t/ramp))/2 until this time [s]
     double stiffness, rest; ///< [N/m] or [N m/rad]; [m] or [rad]
     double damping;         ///< [N s/m] or [N m s/rad]
 } Freedom;
@@ -287,6 +290,7 @@ typedef struct Scene {
     char path[SCENE_PATH_SIZE]; ///< the case file
     uint64_t hash;              ///< FNV-1a 64 of the case's text after --set (canonical printing)
     Domain domain;
+    double lines_step; ///< of a domain of lines [s]; NAN = by the rule (see plan.c)
     Fluid fluid;
     Waves waves;
     int body_count;
@@ -309,6 +313,7 @@ typedef struct Scene {
     EnergyProbe energy;
     Outputs outputs;
     CameraScene camera;
+    char notes[1024]; ///< what the reader of a MoorDyn file left out, lines joined by "; "
 } Scene;
 
 /// Defaults for everything; required numbers are NAN so that scene_check refuses them.

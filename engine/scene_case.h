@@ -6,6 +6,11 @@
 #include "scene.h"
 #include "scene_table.h"
 
+typedef enum MoordynAxes {
+    MOORDYN_WORLD, ///< where they are when the body is at its reference pose
+    MOORDYN_BODY,  ///< the body's geometry axes
+} MoordynAxes;
+
 /// The scene with what only the file knows.
 typedef struct CaseFile {
     Scene scene;
@@ -14,6 +19,9 @@ typedef struct CaseFile {
     double basin_length;    ///< [m]
     double basin_breadth;   ///< [m]
     double basin_freeboard; ///< [m]; NAN = BASIN_FREEBOARD_RATIO of the largest wave height
+    char moordyn_path[SCENE_PATH_SIZE]; ///< as the case says it; "" = none
+    int moordyn_body;                   ///< what its coupled points ride on; -1 = earth
+    MoordynAxes moordyn_axes;           ///< of those points' coordinates
 } CaseFile;
 
 /// A file that says nothing.
@@ -32,6 +40,10 @@ bool case_finish_body(const JsonReader *reader, const JsonValue *object, const c
                       void *target);
 bool case_finish_line(const JsonReader *reader, const JsonValue *object, const char *where,
                       void *target);
+
+/// Add the lines and points of the case's MoorDyn file, and its water where the case does not say
+/// (scene_moordyn.c). @param root  the case's tree
+bool case_join_moordyn(const JsonReader *reader, const JsonValue *root, CaseFile *draft);
 
 /// Values that follow from others: the basin's corners, limits of live changes, ramp.
 bool case_resolve(const JsonReader *reader, CaseFile *draft);

@@ -50,10 +50,11 @@ static bool check_blocks(const JsonReader *reader, const Scene *scene)
 {
     const Fluid *fluid = &scene->fluid;
     char at[JSON_PATH_SIZE];
+    static const char *const kinds[] = {"tank", "flume", "basin", "domain of lines"};
     if (fluid->block_count && scene->domain.kind != DOMAIN_TANK)
         return table_refuse(reader, "fluid.blocks", NULL,
                             "must not be given for a %s: it is filled up to fluid.level_m",
-                            scene->domain.kind == DOMAIN_BASIN ? "basin" : "flume");
+                            kinds[scene->domain.kind]);
     for (int i = 0; i < fluid->block_count; i++)
         for (int axis = 0; axis < 3; axis++) {
             double low = component(scene->domain.min, axis);
@@ -229,5 +230,6 @@ bool case_check(const JsonReader *reader, const Scene *scene)
     TRY(case_check_bodies(reader, scene));
     TRY(case_check_lines(reader, scene));
     TRY(case_check_probes(reader, scene));
-    return case_check_memory(reader, scene, case_memory_available());
+    return scene->domain.kind == DOMAIN_LINES ||
+           case_check_memory(reader, scene, case_memory_available());
 }

@@ -12,6 +12,7 @@ Scene scene_default(void)
     scene.domain.kind = DOMAIN_TANK;
     scene.domain.dimensions = 3;
     scene.domain.min = scene.domain.max = none;
+    scene.lines_step = NAN;
 
     Fluid *fluid = &scene.fluid;
     fluid->spacing = NAN;

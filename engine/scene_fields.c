@@ -11,7 +11,7 @@
 #define DEGREES(min_, max_) .min = min_, .max = max_, .unit = "deg", .to_si = PI / 180
 
 static const JsonField DOMAIN_FIELDS[] = {
-    {"kind", FIELD_CHOICE, true, IN_CASE(scene.domain.kind), .choices = {"tank", "flume", "basin"}},
+    {"kind", FIELD_CHOICE, true, IN_CASE(scene.domain.kind), .choices = {"tank", "flume", "basin", "lines"}},
     {"dimensions", FIELD_INTEGER, IN_CASE(scene.domain.dimensions), .min = 2, .max = 3},
     {"min_m", FIELD_POINT, IN_CASE(scene.domain.min), COORDINATE},
     {"max_m", FIELD_POINT, IN_CASE(scene.domain.max), COORDINATE},
@@ -19,6 +19,7 @@ static const JsonField DOMAIN_FIELDS[] = {
     {"breadth_m", FIELD_NUMBER, IN_CASE(basin_breadth), LENGTH_UP_TO(20000)},
     {"depth_m", FIELD_NUMBER, IN_CASE(basin_depth), LENGTH_UP_TO(10000)},
     {"freeboard_m", FIELD_NUMBER, IN_CASE(basin_freeboard), LENGTH_UP_TO(1000)},
+    {"time_step_s", FIELD_NUMBER, IN_CASE(scene.lines_step), .max = 10, .above_min = true, .unit = "s"},
 };
 static const JsonTable DOMAIN_TABLE = {DOMAIN_FIELDS, COUNT(DOMAIN_FIELDS), NULL};
 
@@ -29,7 +30,7 @@ static const JsonField BLOCK_FIELDS[] = {
 static const JsonTable BLOCK_TABLE = {BLOCK_FIELDS, COUNT(BLOCK_FIELDS), NULL};
 
 static const JsonField FLUID_FIELDS[] = {
-    {"spacing_m", FIELD_NUMBER, true, IN_CASE(scene.fluid.spacing), LENGTH_UP_TO(10)},
+    {"spacing_m", FIELD_NUMBER, IN_CASE(scene.fluid.spacing), LENGTH_UP_TO(10)},
     {"smoothing_ratio", FIELD_NUMBER, IN_CASE(scene.fluid.smoothing_ratio), .min = 1.2, .max = 3},
     {"density_kgm3", FIELD_NUMBER, IN_CASE(scene.fluid.density), .min = 100, .max = 20000, .unit = "kg/m3"},
     {"alpha", FIELD_NUMBER, IN_CASE(scene.fluid.alpha), .max = 1},
@@ -169,7 +170,7 @@ static const JsonField CASE_FIELDS[] = {
     {"$schema", FIELD_TEXT, IN_CASE(schema), .count_max = sizeof((CaseFile *)0)->schema},
     {"title", FIELD_TEXT, IN_CASE(scene.title), .count_max = sizeof((CaseFile *)0)->scene.title},
     {"domain", FIELD_OBJECT, true, .table = &DOMAIN_TABLE},
-    {"fluid", FIELD_OBJECT, true, .table = &FLUID_TABLE},
+    {"fluid", FIELD_OBJECT, .table = &FLUID_TABLE},
     {"waves", FIELD_OBJECT, .table = &WAVE_TABLE},
     {"bodies", FIELD_LIST, IN_CASE(scene.bodies), .table = &BODY_TABLE,
      .item_size = sizeof(BodyScene), .counter_offset = offsetof(CaseFile, scene.body_count),
@@ -178,6 +179,9 @@ static const JsonField CASE_FIELDS[] = {
     {"lines", FIELD_LIST, IN_CASE(scene.lines), .table = &LINE_TABLE,
      .item_size = sizeof(LineScene), .counter_offset = offsetof(CaseFile, scene.line_count),
      .count_max = SCENE_LINES_MAX, .item_default = line_default},
+    {"moordyn_file", FIELD_TEXT, IN_CASE(moordyn_path), .count_max = SCENE_PATH_SIZE},
+    {"moordyn_body", FIELD_CUSTOM, IN_CASE(moordyn_body), .read = case_read_body},
+    {"moordyn_axes", FIELD_CHOICE, IN_CASE(moordyn_axes), .choices = {"world", "body"}},
     {"probes", FIELD_OBJECT, .table = &PROBE_TABLE},
     {"outputs", FIELD_OBJECT, .table = &OUTPUT_TABLE},
     {"camera", FIELD_OBJECT, .table = &CAMERA_TABLE},

@@ -22,11 +22,13 @@ static const JsonField PRESCRIBED_TRANSLATION_FIELDS[] = {
     {"amplitude_m", FIELD_NUMBER, true, IN_FREEDOM(amplitude), .max = 100, .unit = "m"},
     {"period_s", FIELD_NUMBER, true, IN_FREEDOM(period), .min = 0.05, .max = 1000, .unit = "s"},
     {"phase_deg", FIELD_NUMBER, IN_FREEDOM(phase), DEGREES(360)},
+    {"ramp_s", FIELD_NUMBER, IN_FREEDOM(ramp), .max = 10000, .unit = "s"},
 };
 static const JsonField PRESCRIBED_ROTATION_FIELDS[] = {
     {"amplitude_deg", FIELD_NUMBER, true, IN_FREEDOM(amplitude), .max = 180, .unit = "deg", .to_si = PI / 180},
     {"period_s", FIELD_NUMBER, true, IN_FREEDOM(period), .min = 0.05, .max = 1000, .unit = "s"},
     {"phase_deg", FIELD_NUMBER, IN_FREEDOM(phase), DEGREES(360)},
+    {"ramp_s", FIELD_NUMBER, IN_FREEDOM(ramp), .max = 10000, .unit = "s"},
 };
 static const JsonField SPRING_TRANSLATION_FIELDS[] = {
     {"stiffness_n_per_m", FIELD_NUMBER, true, IN_FREEDOM(stiffness), .max = 1e12, .unit = "N/m"},

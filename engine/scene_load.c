@@ -75,12 +75,70 @@ static bool resolve_basin(const JsonReader *reader, CaseFile *draft)
     return true;
 }
 
+/// Grow a box, given by its middle and half sizes, around a place.
+static void reach_over(Domain *box, Vec3 place)
+{
+    box->min.x = mind(box->min.x, place.x), box->max.x = maxd(box->max.x, place.x);
+    box->min.y = mind(box->min.y, place.y), box->max.y = maxd(box->max.y, place.y);
+    box->max.z = maxd(box->max.z, place.z);
+}
+
+/// A domain of lines by its depth alone: it reaches as far as lines and bodies, and a fifth of the
+/// depth more.
+static bool resolve_lines(const JsonReader *reader, CaseFile *draft)
+{
+    Scene *scene = &draft->scene;
+    Domain *domain = &scene->domain;
+    if (!isnan(domain->min.x) || !isnan(domain->max.x)) return true;
+    if (isnan(draft->basin_depth))
+        return table_refuse(
+            reader, "domain.depth_m", NULL,
+            "is missing: must be > 0 and <= 10000 m (or min_m and max_m, or WtrDpth "
+            "in a MoorDyn file)");
+    double level = scene->fluid.level, depth = draft->basin_depth;
+    domain->min = vec3(INFINITY, INFINITY, level - depth);
+    domain->max = vec3(-INFINITY, -INFINITY, level);
+    for (int i = 0; i < scene->body_count; i++)
+        reach_over(domain, scene->bodies[i].position);
+    for (int i = 0; i < scene->point_count; i++)
+        if (scene->points[i].body < 0) reach_over(domain, scene->points[i].position);
+    for (int i = 0; i < scene->line_count; i++)
+        for (int e = 0; e < 2; e++) {
+            const LineEnd *end = e ? &scene->lines[i].fairlead : &scene->lines[i].anchor;
+            if (end->body < 0 && end->point < 0) reach_over(domain, end->position);
+        }
+    if (!(domain->max.x >= domain->min.x)) reach_over(domain, vec3(0, 0, level));
+    double margin = 0.2 * depth;
+    double lengths[2] = {draft->basin_length, draft->basin_breadth};
+    double *low[2] = {&domain->min.x, &domain->min.y}, *high[2] = {&domain->max.x, &domain->max.y};
+    for (int a = 0; a < 2; a++) {
+        *low[a] = isnan(lengths[a]) ? *low[a] - margin : -0.5 * lengths[a];
+        *high[a] = isnan(lengths[a]) ? *high[a] + margin : 0.5 * lengths[a];
+    }
+    double highest = isnan(scene->waves.height_limits.max) ? 0 : scene->waves.height_limits.max;
+    domain->max.z = maxd(domain->max.z, level + maxd(margin, BASIN_FREEBOARD_RATIO * highest));
+    return true;
+}
+
 static bool resolve_domain(const JsonReader *reader, CaseFile *draft)
 {
     Domain *domain = &draft->scene.domain;
     Fluid *fluid = &draft->scene.fluid;
-    if (!isnan(draft->basin_length) || !isnan(draft->basin_breadth) || !isnan(draft->basin_depth) ||
-        !isnan(draft->basin_freeboard)) {
+    if (domain->kind == DOMAIN_LINES) {
+        TRY(resolve_lines(reader, draft));
+        // nothing is that far apart; pictures and plans ask for some length
+        Vec3 size = vec3_sub(domain->max, domain->min);
+        fluid->spacing = 0.01 * maxd(size.x, maxd(size.y, size.z));
+    } else if (isnan(fluid->spacing)) {
+        return table_refuse(reader, "fluid.spacing_m", NULL, "is missing: must be > 0 and <= 10 m");
+    } else if (!isnan(draft->scene.lines_step)) {
+        return table_refuse(reader, "domain.time_step_s", NULL,
+                            "must only be given where domain.kind is \"lines\": particles choose "
+                            "their own");
+    }
+    bool by_size = !isnan(draft->basin_length) || !isnan(draft->basin_breadth) ||
+                   !isnan(draft->basin_depth) || !isnan(draft->basin_freeboard);
+    if (domain->kind != DOMAIN_LINES && by_size) {
         TRY(resolve_basin(reader, draft));
     } else {
         const char *missing = isnan(domain->min.x)   ? "domain.min_m"
@@ -129,6 +187,7 @@ static bool read_tree(const JsonReader *reader, const JsonValue *root, CaseFile 
     TRY(table_read(reader, &CASE_TABLE, root, "", draft));
     if (!scene->title[0]) snprintf(scene->title, sizeof scene->title, "%s", scene->name);
     scene->hash = tree_hash(root);
+    TRY(case_join_moordyn(reader, root, draft));
     TRY(case_resolve(reader, draft));
     return case_check(reader, scene);
 }
@@ -138,6 +197,7 @@ CaseFile case_file_default(void)
     CaseFile draft;
     memset(&draft, 0, sizeof draft);
     draft.scene = scene_default();
+    draft.moordyn_body = -1;
     draft.basin_depth = draft.basin_length = draft.basin_breadth = draft.basin_freeboard = NAN;
     return draft;
 }

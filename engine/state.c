@@ -68,6 +68,12 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
 
 static bool create_particles(const Scene *scene, const Plan *plan, State *state, Error *error)
 {
+    if (scene->domain.kind == DOMAIN_LINES) {
+        BackendSetup setup = {.body_count = scene->body_count};
+        ParticleStart nothing = {0};
+        state->backend = backend_none();
+        return state->backend->create(&setup, &nothing, &state->arena, &state->particles, error);
+    }
     Arena scratch = arena_create(0);
     Fill fill;
     bool good = fill_create(scene, plan, &scratch, &fill, error);

@@ -31,12 +31,25 @@ static void water_at_nodes(const void *context, double time, int count, const Ve
     }
 }
 
+/// The same without a basin around: the wave has its drift.
+static void open_water_at_nodes(const void *context, double time, int count, const Vec3 *position,
+                                Vec3 *velocity, Vec3 *acceleration, double *elevation)
+{
+    const WaveState *waves = context;
+    for (int i = 0; i < count; i++) {
+        velocity[i] = waves_velocity(waves, position[i], time);
+        acceleration[i] = waves_acceleration(waves, position[i], time);
+        elevation[i] = waves_elevation(waves, position[i].x, position[i].y, time);
+    }
+}
+
 WaterField step_water(const Scene *scene, const State *state)
 {
     bool waves = scene->waves.kind != WAVES_NONE;
-    WaterField water = {
-        waves ? water_at_nodes : NULL, waves ? &state->waves : NULL, scene->fluid.level,
-        scene->fluid.density,          scene->fluid.gravity,         scene->domain.min.z};
+    WaterAtNodes at_nodes =
+        scene->domain.kind == DOMAIN_LINES ? open_water_at_nodes : water_at_nodes;
+    WaterField water = {waves ? at_nodes : NULL, waves ? &state->waves : NULL, scene->fluid.level,
+                        scene->fluid.density,    scene->fluid.gravity,         scene->domain.min.z};
     return water;
 }
 

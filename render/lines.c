@@ -105,7 +105,7 @@ static int strip_indices(GLuint base, int vertices, GLuint *out)
 static int tank_vertices(const Frame *frame, LineVertex *out)
 {
     const Domain *domain = &frame->snapshot->domain;
-    if (domain->kind == DOMAIN_BASIN) return 0;
+    if (domain->kind == DOMAIN_BASIN || domain->kind == DOMAIN_LINES) return 0;
     const float low[3] = {(float)frame->box_min.x, (float)frame->box_min.y, (float)domain->min.z};
     const float high[3] = {(float)frame->box_max.x, (float)frame->box_max.y, (float)domain->max.z};
     for (int edge = 0; edge < TANK_EDGES; edge++) {

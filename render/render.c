@@ -172,7 +172,9 @@ static bool draw_scene(Render *render, const Frame *frame, Error *error)
     bodies_draw(&render->bodies, gl, frame, NULL);
     gl_target_copy(gl, &render->scene, &render->behind, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bool particles = frame->view->water == WATER_PARTICLES;
-    if (particles) {
+    if (frame->snapshot->domain.kind == DOMAIN_LINES) {
+        // no particles: no water is drawn
+    } else if (particles) {
         gl_target_use(gl, &render->scene);
         use_texture(gl, 0, render->maps);
         TRY(particles_draw(&render->particles, gl, frame, &render->water, error));

@@ -98,6 +98,7 @@ static void print_text(const Scene *scene, const Plan *plan, const char *predict
         print_body(&scene->bodies[i], &plan->bodies[i]);
     for (int i = 0; i < scene->line_count; i++)
         print_line(&scene->lines[i], &plan->lines[i]);
+    if (scene->notes[0]) printf("\nNotes                 %s\n", scene->notes);
     if (plan->warnings[0]) printf("\nWarnings              %s\n", plan->warnings);
     printf("\nPredicted             %s\n", prediction);
 }
@@ -206,6 +207,7 @@ static void print_json(const Scene *scene, const Plan *plan)
     write_effects(&json, plan);
     write_bodies(&json, scene, plan);
     write_lines(&json, scene, plan);
+    json_string(&json, "notes", scene->notes);
     json_string(&json, "warnings", plan->warnings);
     json_object_end(&json);
     printf("%s\n", text_string(&text));

@@ -184,6 +184,7 @@ typedef struct BackendTable {
 /// The table for "auto", "cpu" or "cuda". @return NULL with ERROR_INPUT when it is not there
 const BackendTable *backend_choose(const char *name, Error *error);
 const BackendTable *backend_cpu(void);
+const BackendTable *backend_none(void); ///< for a domain without particles
 const BackendTable *backend_cuda(void); ///< NULL where CUDA was not built
 
 #endif

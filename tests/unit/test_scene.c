@@ -188,7 +188,7 @@ TEST(overrides_that_lead_nowhere_are_refused)
                   "waves.perod_s: unknown key: the nearest known one is "
                   "\"period_s\"");
     check_refusal(ship, "fluid.spacing_m=0,1", "fluid.spacing_m = \"0,1\": must be a number > 0");
-    check_refusal(ship, "fluid=null", "fluid: is missing");
+    check_refusal(ship, "fluid=null", "fluid.spacing_m: is missing");
 }
 
 TEST(hash_knows_what_was_changed_and_not_how_the_file_is_laid_out)

@@ -386,7 +386,6 @@ TEST(schema_refuses_what_the_reader_refuses)
 {
     check_refused("fluid.spacing_m=0");
     check_refused("fluid.spacing_m=\"x\"");
-    check_refused("fluid.spacing_m=null");
     check_refused("fluid.spaceing_m=0.1");
     check_refused("waves.heading_deg=400");
     check_refused("waves.start=cold");
