@@ -274,6 +274,7 @@ typedef enum EnergyProbe {
 
 typedef struct Outputs {
     double series_interval; ///< time between samples [s]
+    double lines_interval;  ///< between shapes of lines in files [s]; 0 = none
 } Outputs;
 
 /// First look of the camera at the scene.

@@ -151,6 +151,7 @@ static const JsonTable CONTACT_TABLE = {CONTACT_FIELDS, COUNT(CONTACT_FIELDS), N
 static const JsonField OUTPUT_FIELDS[] = {
     {"series_interval_s", FIELD_NUMBER, IN_CASE(scene.outputs.series_interval), .min = 0.0001,
      .max = 100, .unit = "s"},
+    {"lines_interval_s", FIELD_NUMBER, IN_CASE(scene.outputs.lines_interval), .max = 1000, .unit = "s"},
 };
 static const JsonTable OUTPUT_TABLE = {OUTPUT_FIELDS, COUNT(OUTPUT_FIELDS), NULL};
 

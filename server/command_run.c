@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "line_files.h"
 #include "mailbox.h"
 #include "progress.h"
 #include "protocol.h"
@@ -13,7 +14,7 @@
 
 typedef struct RunOptions {
     const char *path, *out, *backend, *commands;
-    double until, frames;
+    double until, frames, lines_every;
     int threads;
     bool quiet;
     OptionList overrides;
@@ -25,7 +26,8 @@ typedef struct Run {
     Prepared prepared;
     State *state;
     Recorder recorder;
-    SampleClock clock, frame_clock;
+    SampleClock clock, frame_clock, line_clock;
+    LineFiles line_files;
     double *row;
     Replay replay;
     Render *render; ///< NULL without --frames
@@ -48,6 +50,8 @@ static OptionsResult read_options(int count, char **words, RunOptions *to, Error
          "change a value of the case, such as waves.height_m=0.2"},
         {"--frames", "FPS", OPTION_NUMBER, false, &to->frames, 1e-6, 1e4, NULL,
          "also write PNG frames, so many per simulated second"},
+        {"--lines-every", "SECONDS", OPTION_NUMBER, false, &to->lines_every, 1e-6, 1e6, NULL,
+         "also write shapes and tensions of lines (lines.csv, lines/*.vtk) at this interval"},
         {"--threads", "N", OPTION_INTEGER, false, &to->threads, 0, 1024, NULL,
          "threads of the solver; 0 takes all cores"},
         {"--backend", "B", OPTION_TEXT, false, &to->backend, 0, 0, "auto|cpu|cuda",
@@ -94,6 +98,8 @@ static bool record(Run *run, Error *error)
         series_sample(scene, run->prepared.plan, run->state, run->row);
         TRY(recorder_sample(&run->recorder, run->row, run->prepared.table->count, error));
     }
+    if (run->line_files.table && sample_clock_due(&run->line_clock, run->state->time))
+        TRY(line_files_write(&run->line_files, scene, run->state, error));
     if (run->render && sample_clock_due(&run->frame_clock, run->state->time))
         TRY(write_frame(run, error));
     return true;
@@ -146,6 +152,10 @@ static bool run_setup(Run *run, Error *error)
     if (!run->row) return error_set(error, ERROR_SYSTEM, "no memory left for a sample");
     run->clock.interval = prepared->scene->outputs.series_interval;
     TRY(state_create(prepared->scene, prepared->plan, &run->state, error));
+    run->line_clock.interval =
+        options->lines_every > 0 ? options->lines_every : prepared->scene->outputs.lines_interval;
+    if (run->line_clock.interval > 0 && prepared->scene->line_count)
+        TRY(line_files_open(&run->line_files, options->out, error));
     if (!(options->frames > 0)) return true;
     char folder[SCENE_PATH_SIZE];
     snprintf(folder, sizeof folder, "%s/frames", options->out);
@@ -203,6 +213,7 @@ static int run_case(Run *run, Error *error)
                         .frame_count = run->frame_count};
     Error closing = {0};
     bool written = recorder_close(&run->recorder, &closing) &&
+                   line_files_close(&run->line_files, &closing) &&
                    summary_write(run->options->out, &info, &closing);
     if (!good) return report(error);
     if (!written) return report(&closing);
@@ -223,6 +234,7 @@ int command_run(int count, char **words)
     interrupt_catch();
     int code = run_case(&run, &error);
     recorder_close(&run.recorder, NULL);
+    line_files_close(&run.line_files, NULL);
     if (run.render) render_destroy(run.render);
     if (run.snapshot.storage) snapshot_destroy(&run.snapshot);
     if (run.state) state_destroy(run.state);

@@ -99,6 +99,21 @@ fact a_command_is_replayed 0 '' '' "$stand_in" run $case --until 0.4 --set step_
 holds a_replay_is_journalled grep -q '"time_s":0.1,"wave":{"height_m":0.1' "$work/low/journal.jsonl"
 holds two_runs_are_the_same cmp <(head -6 "$work/run/series.csv") <(head -6 "$work/low/series.csv")
 
+fact lines_are_written_on_request 0 '' '' "$program" run tests/good_cases/driven_lines.json --until 0.3 \
+    --lines-every 0.1 --out "$work/lines" --quiet
+holds line_table_has_a_row_per_node_and_instant test "$(wc -l <"$work/lines/lines.csv")" = $((1 + 4 * 21))
+holds line_shapes_are_numbered test -s "$work/lines/lines/lines_000004.vtk"
+holds line_shape_is_polydata grep -q '^DATASET POLYDATA$' "$work/lines/lines/lines_000004.vtk"
+holds line_shape_has_each_segment grep -q '^LINES 20 60$' "$work/lines/lines/lines_000004.vtk"
+holds line_shape_has_tensions grep -q '^CELL_DATA 20$' "$work/lines/lines/lines_000004.vtk"
+if command -v node >/dev/null; then
+    holds line_shapes_have_their_times node -e '
+        const { files } = JSON.parse(require("fs").readFileSync(0, "utf8"));
+        if (files.length !== 4 || Math.abs(files[3].time - 0.3) > 1e-6) process.exit(1)' \
+        <"$work/lines/lines/lines.vtk.series"
+fi
+holds no_line_files_unasked test ! -e "$work/run/lines.csv"
+
 fact explain_tells_why 0 'Effects that are left out' '' "$program" explain cases/still_water.json
 fact explain_speaks_json 0 '"time_step_s":' '' "$program" explain cases/still_water.json --json
 cp "$work/out" "$work/explained"
