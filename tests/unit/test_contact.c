@@ -1,8 +1,12 @@
 /// Bodies that touch: bed, walls and each other, without water.
 #include "contact.h"
 
-#include "../scenes.h"
+#include <stdlib.h>
+
 #include "engine.h"
+#include "test.h"
+
+static Error error;
 
 /// Boxes of 1 x 1 x 0.4 m in a tank of 6 x 4 m, bed at -1, spacing 0.1 m.
 static Scene boxes(int count)
