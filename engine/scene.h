@@ -207,10 +207,17 @@ typedef enum LineWater {
     LINE_WATER_SPH,      ///< the simulated water's at the nodes
 } LineWater;
 
+/// What may be done to a line's length while it runs.
+typedef struct Winch {
+    Range length; ///< unstretched, of the whole line [m]
+    double speed; ///< at most [m/s]; 0 = there is no winch
+} Winch;
+
 typedef struct LineScene {
     char name[SCENE_NAME_SIZE];
     LineEnd anchor, fairlead;
     double length;           ///< unstretched [m]
+    double pretension;       ///< at the fairlead at rest [N]; the length follows. NAN = not given
     double axial_stiffness;  ///< EA [N]
     double mass_per_length;  ///< in air [kg/m]
     double diameter;         ///< volume-equivalent [m]
@@ -226,6 +233,7 @@ typedef struct LineScene {
     double bending_stiffness; ///< EI [N m^2]; 0 = none
     double breaking_tension;  ///< a segment that carries more parts [N]; 0 = never
     LineWater water;
+    Winch winch;
     int section_count;                             ///< 0 = the same from end to end
     LineSection sections[SCENE_LINE_SECTIONS_MAX]; ///< anchor first
 } LineScene;

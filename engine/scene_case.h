@@ -27,8 +27,8 @@ typedef struct CaseFile {
 /// A file that says nothing.
 CaseFile case_file_default(void);
 
-/// Keys of the whole file, of a body and of a line.
-extern const JsonTable CASE_TABLE, BODY_TABLE, LINE_TABLE;
+/// Keys of the whole file, of a body, a line and a point where lines meet.
+extern const JsonTable CASE_TABLE, BODY_TABLE, LINE_TABLE, POINT_TABLE;
 
 /// `body` by name → index into scene.bodies (bodies are read before lines and probes).
 bool case_read_body(const JsonReader *reader, const JsonField *field, const JsonValue *value,
@@ -44,6 +44,9 @@ bool case_finish_line(const JsonReader *reader, const JsonValue *object, const c
 /// Add the lines and points of the case's MoorDyn file, and its water where the case does not say
 /// (scene_moordyn.c). @param root  the case's tree
 bool case_join_moordyn(const JsonReader *reader, const JsonValue *root, CaseFile *draft);
+
+/// Lengths of lines that are given by their tension (scene_pretension.c); after all checks.
+bool case_resolve_pretension(const JsonReader *reader, Scene *scene);
 
 /// Values that follow from others: the basin's corners, limits of live changes, ramp.
 bool case_resolve(const JsonReader *reader, CaseFile *draft);

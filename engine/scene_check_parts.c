@@ -54,8 +54,30 @@ bool case_check_bodies(const JsonReader *reader, const Scene *scene)
     return true;
 }
 
+/// Points where lines meet: not in the bed; a free one must hold a line.
+static bool check_points(const JsonReader *reader, const Scene *scene)
+{
+    char at[JSON_PATH_SIZE];
+    for (int i = 0; i < scene->point_count; i++) {
+        const PointScene *point = &scene->points[i];
+        TRY(check_name(reader, "points", scene->points[0].name, sizeof *scene->points, i));
+        snprintf(at, sizeof at, "points[%d].position_m", i);
+        if (point->body < 0 && point->position.z < scene->domain.min.z - 1e-9)
+            return table_refuse_number(reader, at, point->position.z,
+                                       "its z must be >= %.9g m (the bed)", scene->domain.min.z);
+        int held = 0;
+        for (int l = 0; l < scene->line_count; l++)
+            held += (scene->lines[l].anchor.point == i) + (scene->lines[l].fairlead.point == i);
+        snprintf(at, sizeof at, "points[%d]", i);
+        if (!held && point->kind == POINT_FREE)
+            return table_refuse(reader, at, NULL, "no line ends at it: a free point must hold one");
+    }
+    return true;
+}
+
 bool case_check_lines(const JsonReader *reader, const Scene *scene)
 {
+    TRY(check_points(reader, scene));
     double bed = scene->domain.min.z;
     char at[JSON_PATH_SIZE];
     for (int i = 0; i < scene->line_count; i++) {
@@ -65,7 +87,7 @@ bool case_check_lines(const JsonReader *reader, const Scene *scene)
         for (int end = 0; end < 2; end++) {
             const LineEnd *e = end ? &line->fairlead : &line->anchor;
             snprintf(at, sizeof at, "lines[%d].%s.position_m", i, end ? "fairlead" : "anchor");
-            if (e->body < 0 && e->position.z < bed - 1e-9 * (1 + fabs(bed)))
+            if (e->point < 0 && e->body < 0 && e->position.z < bed - 1e-9 * (1 + fabs(bed)))
                 return table_refuse_number(reader, at, e->position.z,
                                            "its z must be >= %.9g m (the bed)", bed);
         }

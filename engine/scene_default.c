@@ -73,6 +73,7 @@ LineScene line_scene_default(void)
     line.anchor.body = line.fairlead.body = -1;
     line.anchor.point = line.fairlead.point = -1;
     line.anchor.position = line.fairlead.position = vec3(NAN, NAN, NAN);
+    line.pretension = NAN;
     line.length = line.axial_stiffness = line.mass_per_length = line.diameter = NAN;
     // coefficients, internal damping and bed of MoorDyn's sample input (Hall 2015, users guide)
     line.drag_normal = 1.6;

@@ -164,6 +164,7 @@ static const JsonField CAMERA_FIELDS[] = {
 static const JsonTable CAMERA_TABLE = {CAMERA_FIELDS, COUNT(CAMERA_FIELDS), NULL};
 
 static void body_default(void *item) { *(BodyScene *)item = body_scene_default(); }
+static void point_default(void *item) { *(PointScene *)item = point_scene_default(); }
 static void line_default(void *item) { *(LineScene *)item = line_scene_default(); }
 
 // In the order in which they are read: points need the dimensions, lines and probes the bodies.
@@ -177,6 +178,9 @@ static const JsonField CASE_FIELDS[] = {
      .item_size = sizeof(BodyScene), .counter_offset = offsetof(CaseFile, scene.body_count),
      .count_max = SCENE_BODIES_MAX, .item_default = body_default},
     {"contacts", FIELD_OBJECT, .table = &CONTACT_TABLE},
+    {"points", FIELD_LIST, IN_CASE(scene.points), .table = &POINT_TABLE,
+     .item_size = sizeof(PointScene), .counter_offset = offsetof(CaseFile, scene.point_count),
+     .count_max = SCENE_POINTS_MAX, .item_default = point_default},
     {"lines", FIELD_LIST, IN_CASE(scene.lines), .table = &LINE_TABLE,
      .item_size = sizeof(LineScene), .counter_offset = offsetof(CaseFile, scene.line_count),
      .count_max = SCENE_LINES_MAX, .item_default = line_default},

@@ -1,4 +1,4 @@
-/// The keys of bodies and lines in a case file, and the values that need more than a range.
+/// The keys of bodies in a case file, and the values that need more than a range.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,6 @@
 
 // clang-format off
 #define IN_BODY(member) .offset = offsetof(BodyScene, member)
-#define IN_LINE(member) .offset = offsetof(LineScene, member)
 #define IN_FREEDOM(member) .offset = offsetof(Freedom, member)
 #define COUNT(fields) (int)(sizeof(fields) / sizeof *(fields))
 #define COORDINATE .min = -10000, .max = 10000, .unit = "m"
@@ -122,31 +121,6 @@ static const JsonField BODY_FIELDS[] = {
 };
 const JsonTable BODY_TABLE = {BODY_FIELDS, COUNT(BODY_FIELDS), case_finish_body};
 
-static const JsonField END_FIELDS[] = {
-    {"body", FIELD_CUSTOM, .offset = offsetof(LineEnd, body), .read = case_read_body},
-    {"position_m", FIELD_POINT, true, .offset = offsetof(LineEnd, position), COORDINATE},
-};
-static const JsonTable END_TABLE = {END_FIELDS, COUNT(END_FIELDS), NULL};
-
-static const JsonField LINE_FIELDS[] = {
-    {"name", FIELD_NAME, true, IN_LINE(name), .count_max = SCENE_NAME_SIZE},
-    {"anchor", FIELD_OBJECT, true, IN_LINE(anchor), .table = &END_TABLE},
-    {"fairlead", FIELD_OBJECT, true, IN_LINE(fairlead), .table = &END_TABLE},
-    {"length_m", FIELD_NUMBER, true, IN_LINE(length), LENGTH_UP_TO(100000)},
-    {"axial_stiffness_n", FIELD_NUMBER, true, IN_LINE(axial_stiffness), .max = 1e12, .above_min = true, .unit = "N"},
-    {"mass_kgm", FIELD_NUMBER, true, IN_LINE(mass_per_length), .max = 10000, .above_min = true, .unit = "kg/m"},
-    {"diameter_m", FIELD_NUMBER, true, IN_LINE(diameter), LENGTH_UP_TO(5)},
-    {"drag_normal", FIELD_NUMBER, IN_LINE(drag_normal), .max = 20},
-    {"drag_tangential", FIELD_NUMBER, IN_LINE(drag_tangential), .max = 20},
-    {"added_normal", FIELD_NUMBER, IN_LINE(added_normal), .max = 20},
-    {"added_tangential", FIELD_NUMBER, IN_LINE(added_tangential), .max = 20},
-    {"damping_ratio", FIELD_NUMBER, IN_LINE(damping_ratio), .max = 5},
-    {"segments", FIELD_INTEGER, IN_LINE(segments), .min = 1, .max = 256},
-    {"bed_stiffness_pa_per_m", FIELD_NUMBER, IN_LINE(bed_stiffness), .max = 1e12, .unit = "Pa/m"},
-    {"bed_damping_pa_s_per_m", FIELD_NUMBER, IN_LINE(bed_damping), .max = 1e12, .unit = "Pa s/m"},
-    {"bed_friction", FIELD_NUMBER, IN_LINE(bed_friction), .max = 5},
-};
-const JsonTable LINE_TABLE = {LINE_FIELDS, COUNT(LINE_FIELDS), case_finish_line};
 // clang-format on
 
 bool case_read_body(const JsonReader *reader, const JsonField *field, const JsonValue *value,

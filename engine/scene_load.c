@@ -189,7 +189,7 @@ static bool read_tree(const JsonReader *reader, const JsonValue *root, CaseFile 
     scene->hash = tree_hash(root);
     TRY(case_join_moordyn(reader, root, draft));
     TRY(case_resolve(reader, draft));
-    return case_check(reader, scene);
+    return case_check(reader, scene) && case_resolve_pretension(reader, scene);
 }
 
 CaseFile case_file_default(void)

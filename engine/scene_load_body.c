@@ -167,12 +167,3 @@ bool case_finish_body(const JsonReader *reader, const JsonValue *object, const c
     TRY(check_inertia(reader, object, where, body));
     return resolve_mesh(reader, object, where, body);
 }
-
-bool case_finish_line(const JsonReader *reader, const JsonValue *object, const char *where,
-                      void *target)
-{
-    const LineScene *line = target;
-    if (line->anchor.body >= 0 && line->anchor.body == line->fairlead.body)
-        REFUSE("fairlead", "both ends hold the same body: must be two bodies, or one end on earth");
-    return true;
-}
