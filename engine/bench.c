@@ -131,17 +131,26 @@ static double median(double *values, int count)
 }
 
 static const char *const PASS_NAMES[CLOCK_COUNT] = {
-    [CLOCK_SORT] = "sort",           [CLOCK_EXTRAPOLATE] = "extrapolate",
-    [CLOCK_MOMENTUM] = "momentum",   [CLOCK_DENSITY] = "density",
-    [CLOCK_LOADS] = "loads",         [CLOCK_DUMMIES] = "dummies",
-    [CLOCK_INTEGRATE] = "integrate", [CLOCK_ZONE] = "zone",
+    [CLOCK_SORT] = "sort",
+    [CLOCK_EXTRAPOLATE] = "extrapolate",
+    [CLOCK_EXTRAPOLATE_MOVING] = "extrapolate_moving",
+    [CLOCK_MOMENTUM] = "momentum",
+    [CLOCK_DENSITY] = "density",
+    [CLOCK_LOADS] = "loads",
+    [CLOCK_DUMMIES] = "dummies",
+    [CLOCK_RING] = "ring",
+    [CLOCK_PISTON] = "piston",
+    [CLOCK_INTEGRATE] = "integrate",
+    [CLOCK_ZONE] = "zone",
+    [CLOCK_WORKS] = "works",
 };
 
 /// Seconds of every pass so far: the backend's, then what bodies and lines take on the host.
 static void read_passes(const State *state, double seconds[CLOCK_COUNT + 1])
 {
     memcpy(seconds, state->backend->clocks(state->particles), CLOCK_COUNT * sizeof(double));
-    seconds[CLOCK_COUNT] = state->body_seconds + state->line_seconds;
+    seconds[CLOCK_COUNT] = state->host_seconds[EFFECT_BODY_MOTION] +
+                           state->host_seconds[EFFECT_CONTACTS] + state->host_seconds[EFFECT_LINES];
 }
 
 static void note_passes(BenchReport *report, const double before[CLOCK_COUNT + 1],

@@ -10,9 +10,8 @@
 #include "backend/backend.h"
 #include "body.h"
 #include "carve.h"
-#include "contact.h"
+#include "effects.h"
 #include "fill.h"
-#include "slamming.h"
 #include "waves.h"
 
 /// c0 dt/h. What was tried of other values is in docs/performance.md.
@@ -68,14 +67,17 @@ static void choose_time_step(const Scene *scene, Plan *plan)
     limit_step(plan, 0.25 * sqrt(h / scene->fluid.gravity), "gravity");
     // alpha h c0/(2 (n + 2)) is the artificial viscosity's kinematic equivalent
     double nu = scene->fluid.alpha * h * c0 / (2 * (scene->domain.dimensions + 2));
-    if (nu > 0) limit_step(plan, 0.125 * h * h / nu, "viscosity");
+    if (nu > 0) {
+        plan->effects[EFFECT_VISCOSITY].step_limit = 0.125 * h * h / nu;
+        limit_step(plan, plan->effects[EFFECT_VISCOSITY].step_limit, "viscosity");
+    }
     for (int b = 0; b < scene->body_count; b++) {
         Body body = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
         double limit = body_step_limit(&body, &scene->bodies[b]);
         char why[64];
         snprintf(why, sizeof why, "springs of %.40s", scene->bodies[b].name);
-        plan->effects[EFFECT_BODIES].step_limit =
-            mind(plan->effects[EFFECT_BODIES].step_limit, limit);
+        plan->effects[EFFECT_BODY_MOTION].step_limit =
+            mind(plan->effects[EFFECT_BODY_MOTION].step_limit, limit);
         limit_step(plan, limit, why);
     }
 }
@@ -155,106 +157,6 @@ static bool hang_lines(const Scene *scene, Plan *plan, Error *error)
     return true;
 }
 
-static void set_effect(Plan *plan, EffectId id, bool active, size_t bytes, const char *because)
-{
-    plan->effects[id].active = active;
-    plan->effects[id].bytes = active ? bytes : 0;
-    snprintf(plan->effects[id].because, sizeof plan->effects[id].because, "%s", because);
-}
-
-static void name_effects(Plan *plan)
-{
-    static const EffectPlan table[EFFECT_COUNT] = {
-#define EFFECT(id, effect_name, effect_kind, effect_source)                                        \
-    {.name = effect_name, .kind = effect_kind, .source = effect_source, .step_limit = INFINITY},
-#include "effects.def"
-#undef EFFECT
-    };
-    memcpy(plan->effects, table, sizeof table);
-}
-
-/// Bytes that one more particle of each set takes: its slots, the checkpoint, its share of the
-/// lists of neighbours; and what every run takes. Measured: test_memory compares.
-enum { FLUID_BYTES = 150, FIXED_BYTES = 130, MOVING_BYTES = 270, RUN_BYTES = 2000000 };
-/// And per fluid particle where works are measured, padding of clusters included.
-enum { WORKS_BYTES = 70 };
-
-static void choose_effects(const Scene *scene, Plan *plan, const Fill *fill)
-{
-    const Fluid *fluid = &scene->fluid;
-    char text[160];
-    snprintf(text, sizeof text, "fluid.alpha = %g", fluid->alpha);
-    bool water = scene->domain.kind != DOMAIN_LINES;
-    set_effect(plan, EFFECT_VISCOSITY, water && fluid->alpha > 0, 0, text);
-    snprintf(text, sizeof text, "fluid.delta = %g", fluid->delta);
-    set_effect(plan, EFFECT_DIFFUSION, water && fluid->delta > 0, 4 * (size_t)fill->fluid_count,
-               text);
-    snprintf(text, sizeof text, "domain.kind: %d dummy particles in %d layers", fill->wall_count,
-             plan->wall_layers);
-    set_effect(plan, EFFECT_WALLS, fill->wall_count > 0,
-               (size_t)FIXED_BYTES * (size_t)fill->wall_count, text);
-    bool waves = scene->waves.kind != WAVES_NONE;
-    bool basin = waves && scene->domain.kind == DOMAIN_BASIN;
-    bool flume = waves && scene->domain.kind == DOMAIN_FLUME;
-    const char *no_waves = waves ? "waves are made another way" : "waves.kind is none";
-    snprintf(text, sizeof text, "waves in a basin: %d moving dummies", fill->ring_count);
-    set_effect(plan, EFFECT_RING, basin, (size_t)MOVING_BYTES * (size_t)fill->ring_count,
-               basin ? text : no_waves);
-    snprintf(text, sizeof text, "waves in a basin: %.3g m wide", plan->zone_width);
-    set_effect(plan, EFFECT_ZONE, basin, 0, basin ? text : no_waves);
-    snprintf(text, sizeof text, "waves in a flume: %d moving dummies", fill->piston_count);
-    set_effect(plan, EFFECT_PISTON, flume, (size_t)MOVING_BYTES * (size_t)fill->piston_count,
-               flume ? text : no_waves);
-    snprintf(text, sizeof text, "waves in a flume: %.3g m long", plan->zone_width);
-    set_effect(plan, EFFECT_BEACH, flume, 0, flume ? text : no_waves);
-    snprintf(text, sizeof text, scene->body_count ? "bodies: %d, %d dummy particles" : "no bodies",
-             scene->body_count, fill->body_count);
-    set_effect(plan, EFFECT_BODIES, scene->body_count > 0,
-               (size_t)MOVING_BYTES * (size_t)fill->body_count, text);
-    bool touch = contact_possible(scene);
-    set_effect(plan, EFFECT_CONTACTS, touch, 0,
-               touch               ? "bodies that may move into bed, walls or each other"
-               : scene->body_count ? "no body moves freely, or contacts.kind is none"
-                                   : "no bodies");
-    size_t nodes = 0;
-    for (int l = 0; l < scene->line_count; l++)
-        nodes += (size_t)scene->lines[l].segments + 1;
-    snprintf(text, sizeof text, scene->line_count ? "lines: %d, %zu nodes" : "no lines",
-             scene->line_count, nodes);
-    set_effect(plan, EFFECT_LINES, scene->line_count > 0, nodes * 40 * sizeof(double), text);
-    snprintf(text, sizeof text, scene->gauge_count ? "probes.gauges: %d" : "no gauges",
-             scene->gauge_count);
-    set_effect(plan, EFFECT_GAUGES, scene->gauge_count > 0, 0, text);
-    snprintf(text, sizeof text, scene->pressure_probe_count ? "probes.pressure: %d" : "no probes",
-             scene->pressure_probe_count);
-    set_effect(plan, EFFECT_PRESSURE_PROBES, scene->pressure_probe_count > 0, 0, text);
-    snprintf(text, sizeof text, scene->run_up_count ? "probes.run_up: %d" : "no run-up lines",
-             scene->run_up_count);
-    set_effect(plan, EFFECT_RUN_UP, scene->run_up_count > 0, 0, text);
-    snprintf(text, sizeof text,
-             scene->slamming_count ? "probes.slamming: %d" : "no slamming probes",
-             scene->slamming_count);
-    set_effect(plan, EFFECT_SLAMMING, scene->slamming_count > 0,
-               2 * (size_t)scene->slamming_count * sizeof(Slamming), text);
-    snprintf(text, sizeof text, scene->green_water_count ? "probes.green_water: %d" : "no decks",
-             scene->green_water_count);
-    set_effect(plan, EFFECT_GREEN_WATER, scene->green_water_count > 0, 0, text);
-    static const char *const energies[] = {"probes.energy is none", "probes.energy: levels",
-                                           "probes.energy: budget; sweeps run thrice"};
-    bool works = scene->energy == ENERGY_BUDGET;
-    set_effect(plan, EFFECT_ENERGY, scene->energy != ENERGY_NONE,
-               works ? (size_t)WORKS_BYTES * (size_t)fill->fluid_count : 0,
-               energies[scene->energy]);
-}
-
-static void count_bytes(Plan *plan, const Fill *fill)
-{
-    size_t bytes = RUN_BYTES + (size_t)FLUID_BYTES * (size_t)fill->fluid_count;
-    for (int e = 0; e < EFFECT_COUNT; e++)
-        bytes += plan->effects[e].bytes;
-    plan->bytes = bytes;
-}
-
 static bool check_memory(const Scene *scene, const Plan *plan, Error *error)
 {
     size_t limit = plan->options.memory_limit;
@@ -274,13 +176,12 @@ static bool build_lines(const Scene *scene, Plan *plan, Error *error)
     plan->backend = backend_none()->name;
     snprintf(plan->variant, sizeof plan->variant, "%s", backend_none()->variant());
     snprintf(plan->sound_speed_because, sizeof plan->sound_speed_because, "no particles");
-    name_effects(plan);
+    effects_name(plan->effects);
     TRY(mesh_bodies(scene, plan, error));
     TRY(hang_lines(scene, plan, error));
     choose_lines_step(scene, plan);
     Fill fill = {0};
-    choose_effects(scene, plan, &fill);
-    count_bytes(plan, &fill);
+    effects_choose(scene, plan, &fill);
     return true;
 }
 
@@ -313,7 +214,7 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
     plan->pair_mask = (scene->fluid.alpha > 0 ? PAIR_VISCOSITY : 0) |
                       (scene->fluid.delta > 0 ? PAIR_DIFFUSION : 0);
     choose_sound_speed(scene, plan);
-    name_effects(plan);
+    effects_name(plan->effects);
     TRY(mesh_bodies(scene, plan, error));
     TRY(hang_lines(scene, plan, error));
     choose_time_step(scene, plan);
@@ -328,8 +229,7 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
                          "fluid.spacing_m = %g: the domain holds no particle; "
                          "must be smaller",
                          dp);
-    choose_effects(scene, plan, &fill);
-    count_bytes(plan, &fill);
+    effects_choose(scene, plan, &fill);
     return check_memory(scene, plan, error);
 }
 

@@ -13,18 +13,29 @@
 typedef enum EffectKind { EFFECT_PAIR, EFFECT_PASS } EffectKind;
 
 typedef enum EffectId {
-#define EFFECT(id, name, kind, source) EFFECT_##id,
+#define EFFECT(id, name, kind, called_by, arrays, step, source) EFFECT_##id,
 #include "effects.def"
 #undef EFFECT
     EFFECT_COUNT
 } EffectId;
 
+/// How the time that an effect takes is known.
+typedef enum EffectCost {
+    COST_CLOCKED,  ///< by clocks around what it does
+    COST_SAMPLED,  ///< share of its sweep, measured once at the start, times the sweep's clock
+    COST_ELSEWHERE ///< not a part of a step
+} EffectCost;
+
 typedef struct EffectPlan {
     const char *name;
     EffectKind kind;
-    const char *source; ///< citation
+    const char *called_by; ///< what in a case switches it on
+    const char *arrays;    ///< what it keeps
+    const char *step;      ///< its own stable time step as a formula, "" without
+    const char *source;    ///< citation
+    EffectCost cost;
     bool active;
-    char because[160]; ///< what in the case calls for it, or why it is not needed
+    char because[160]; ///< what in this case calls for it, or why it is not needed
     size_t bytes;      ///< of the arrays it brings
     double step_limit; ///< its own stable time step [s], INFINITY without
 } EffectPlan;
@@ -48,6 +59,7 @@ typedef struct EngineOptions {
     int threads;         ///< 0 = all cores
     const char *backend; ///< "auto", "cpu" or "cuda"
     size_t memory_limit; ///< [byte]; 0 = three quarters of the machine's
+    bool pictures;       ///< somebody may look
 } EngineOptions;
 
 typedef struct Plan {

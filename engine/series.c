@@ -6,6 +6,7 @@
 
 #include "energy.h"
 #include "probes.h"
+#include "step.h"
 
 static const char *const BODY_COLUMNS[] = {
     "surge_m",    "sway_m",     "heave_m",    "roll_deg",    "pitch_deg",   "yaw_deg",
@@ -85,19 +86,26 @@ static double *sample_line(const Line *line, double *row)
     return row;
 }
 
-void series_sample(const Scene *scene, const Plan *plan, const State *state, double *row)
+/// Add the time since `begin` to an effect's; the time now.
+static double lap(State *state, EffectId effect, double begin)
 {
-    *row++ = state->time;
-    for (int i = 0; i < scene->body_count; i++)
-        row = sample_body(&state->bodies[i], row);
-    for (int i = 0; i < scene->line_count; i++)
-        row = sample_line(&state->lines[i], row);
+    double now = step_clock();
+    state->host_seconds[effect] += now - begin;
+    return now;
+}
+
+static double *sample_probes(const Scene *scene, State *state, double *row)
+{
+    double begin = step_clock();
     for (int i = 0; i < scene->gauge_count; i++)
         *row++ = probe_elevation(scene, state, i);
+    if (scene->gauge_count) begin = lap(state, EFFECT_GAUGES, begin);
     for (int i = 0; i < scene->pressure_probe_count; i++)
         *row++ = probe_pressure(scene, state, i);
+    if (scene->pressure_probe_count) begin = lap(state, EFFECT_PRESSURE_PROBES, begin);
     for (int i = 0; i < scene->run_up_count; i++)
         *row++ = probe_run_up(scene, state, i);
+    if (scene->run_up_count) begin = lap(state, EFFECT_RUN_UP, begin);
     for (int i = 0; i < scene->slamming_count; i++)
         row = add_vector(row, state->slammings[i].force);
     for (int i = 0; i < scene->green_water_count; i++) {
@@ -105,8 +113,21 @@ void series_sample(const Scene *scene, const Plan *plan, const State *state, dou
         *row++ = water.volume;
         *row++ = water.height;
     }
+    if (scene->green_water_count) begin = lap(state, EFFECT_GREEN_WATER, begin);
     EnergyColumn energy[ENERGY_COLUMNS_MAX];
     int energies = energy_columns(scene, state, energy);
     for (int i = 0; i < energies; i++)
         *row++ = energy[i].value;
+    if (energies) lap(state, EFFECT_ENERGY, begin);
+    return row;
+}
+
+void series_sample(const Scene *scene, const Plan *plan, State *state, double *row)
+{
+    *row++ = state->time;
+    for (int i = 0; i < scene->body_count; i++)
+        row = sample_body(&state->bodies[i], row);
+    for (int i = 0; i < scene->line_count; i++)
+        row = sample_line(&state->lines[i], row);
+    sample_probes(scene, state, row);
 }

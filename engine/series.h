@@ -22,7 +22,8 @@ typedef struct SeriesTable {
 /// says.
 void series_table(const Scene *scene, SeriesTable *table);
 
-/// Values of all columns now. @param row  [table->count]
-void series_sample(const Scene *scene, const Plan *plan, const State *state, double *row);
+/// Values of all columns now; what reading them takes counts to their effects' clocks.
+/// @param row  [table->count]
+void series_sample(const Scene *scene, const Plan *plan, State *state, double *row);
 
 #endif

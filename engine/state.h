@@ -53,22 +53,21 @@ typedef struct State {
     LineWatch *watches;  ///< [scene->line_count]
     LineEvents *events;  ///< of all lines; NULL without lines
     HealthRecord health;
-    double wall_time;                                 ///< spent in step_advance [s]
-    double smallest_step, largest_step;               ///< used so far [s]
-    double density_error, largest_density_error;      ///< |rho/rho0 - 1| now and so far [-]
-    double largest_speed;                             ///< of the fluid now [m/s]
-    double effect_seconds[EFFECT_COUNT];              ///< wall time spent in each effect so far [s]
-    double base_seconds;                              ///< pressure forces, integration, sorting [s]
-    const BackendTable *backend;                      ///< functions of the particles' machine
-    Backend *particles;                               ///< owned by the backend
-    BodyLoad *loads;                                  ///< of the last forces call [body_count]
-    BodyPose *poses;                                  ///< at the end of the step [body_count]
-    Vec3 *centres;                                    ///< of gravity [body_count]
-    double line_work;                                 ///< done on bodies by lines [J], for a budget
-    EnergyLevels energy_start;                        ///< at t = 0, where the case asks for it
-    Checkpoint checkpoint;                            ///< the last good state, for roll-back
-    double contact_seconds;                           ///< part of body_seconds
-    double line_seconds, body_seconds, probe_seconds; ///< wall time of host passes [s]
+    double wall_time;                            ///< spent in step_advance [s]
+    double smallest_step, largest_step;          ///< used so far [s]
+    double density_error, largest_density_error; ///< |rho/rho0 - 1| now and so far [-]
+    double largest_speed;                        ///< of the fluid now [m/s]
+    double effect_seconds[EFFECT_COUNT];         ///< wall time spent in each effect so far [s]
+    double base_seconds;                         ///< pressure forces, integration, sorting [s]
+    const BackendTable *backend;                 ///< functions of the particles' machine
+    Backend *particles;                          ///< owned by the backend
+    BodyLoad *loads;                             ///< of the last forces call [body_count]
+    BodyPose *poses;                             ///< at the end of the step [body_count]
+    Vec3 *centres;                               ///< of gravity [body_count]
+    double line_work;                            ///< done on bodies by lines [J], for a budget
+    EnergyLevels energy_start;                   ///< at t = 0, where the case asks for it
+    Checkpoint checkpoint;                       ///< the last good state, for roll-back
+    double host_seconds[EFFECT_COUNT];           ///< of them, in passes on the host [s]
     double pair_cost[2]; ///< share of viscosity and diffusion in their sweeps [-]
     Arena arena;
 } State;

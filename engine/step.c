@@ -11,7 +11,7 @@
 #include "health.h"
 #include "piston.h"
 
-static double wall_clock(void)
+double step_clock(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -79,6 +79,15 @@ static void collect_line_loads(const Scene *scene, State *state)
     }
 }
 
+static void probe_slamming(const Scene *scene, const Plan *plan, State *state, double dt)
+{
+    for (int i = 0; i < scene->slamming_count; i++) {
+        const SlammingScene *probe = &scene->slammings[i];
+        slamming_advance(&state->slammings[i], probe, scene, &state->bodies[probe->body],
+                         &plan->bodies[probe->body].geometry, dt);
+    }
+}
+
 static void advance_bodies(const Scene *scene, const Plan *plan, State *state, double dt)
 {
     collect_line_loads(scene, state);
@@ -86,16 +95,18 @@ static void advance_bodies(const Scene *scene, const Plan *plan, State *state, d
         state->bodies[b].fluid_force = state->loads[b].force;
         state->bodies[b].fluid_moment = state->loads[b].moment;
     }
-    for (int i = 0; i < scene->slamming_count; i++) {
-        const SlammingScene *probe = &scene->slammings[i];
-        slamming_advance(&state->slammings[i], probe, scene, &state->bodies[probe->body],
-                         &plan->bodies[probe->body].geometry, dt);
+    if (plan->effects[EFFECT_SLAMMING].active) {
+        double lap = step_clock();
+        probe_slamming(scene, plan, state, dt);
+        state->host_seconds[EFFECT_SLAMMING] += step_clock() - lap;
     }
     if (plan->effects[EFFECT_CONTACTS].active) {
-        double lap = wall_clock();
+        double lap = step_clock();
         contact_loads(scene, plan, state->bodies);
-        state->contact_seconds += wall_clock() - lap;
+        state->host_seconds[EFFECT_CONTACTS] += step_clock() - lap;
     }
+    if (!plan->effects[EFFECT_BODY_MOTION].active) return;
+    double lap = step_clock();
     for (int b = 0; b < scene->body_count; b++) {
         Body *body = &state->bodies[b], before = *body;
         body_advance(body, &scene->bodies[b], scene->fluid.gravity, state->time, dt);
@@ -105,6 +116,7 @@ static void advance_bodies(const Scene *scene, const Plan *plan, State *state, d
         state->line_work +=
             0.5 * dt * (vec3_dot(body->line_force, v) + vec3_dot(body->line_moment, w));
     }
+    state->host_seconds[EFFECT_BODY_MOTION] += step_clock() - lap;
 }
 
 typedef struct LinePaths {
@@ -179,6 +191,11 @@ Advance step_orders(const Scene *scene, const Plan *plan, State *state, double d
     return advance;
 }
 
+static EffectId wave_maker(const Plan *plan)
+{
+    return plan->effects[EFFECT_PISTON].active ? EFFECT_PISTON : EFFECT_RING;
+}
+
 static bool step_once(const Scene *scene, const Plan *plan, State *state, double dt,
                       ParticleSums *sums, Error *error)
 {
@@ -187,47 +204,52 @@ static bool step_once(const Scene *scene, const Plan *plan, State *state, double
         state->centres[b] = state->bodies[b].position;
     TRY(state->backend->forces(state->particles, state->centres, state->loads, error));
 
-    double lap = wall_clock();
-    note_line_ends(scene, state, 0, &paths);
-    advance_bodies(scene, plan, state, dt);
-    note_line_ends(scene, state, 1, &paths);
-    state->body_seconds += wall_clock() - lap;
-    lap = wall_clock();
-    TRY(advance_lines(scene, state, dt, &paths, error));
-    state->line_seconds += wall_clock() - lap;
+    if (plan->effects[EFFECT_LINES].active) note_line_ends(scene, state, 0, &paths);
+    if (plan->effects[EFFECT_BODIES].active) advance_bodies(scene, plan, state, dt);
+    if (plan->effects[EFFECT_LINES].active) {
+        double lap = step_clock();
+        note_line_ends(scene, state, 1, &paths);
+        TRY(advance_lines(scene, state, dt, &paths, error));
+        state->host_seconds[EFFECT_LINES] += step_clock() - lap;
+    }
 
     Advance advance = step_orders(scene, plan, state, dt);
     state->backend->advance(state->particles, &advance, sums);
 
     state->time += dt;
     state->step++;
-    if (scene->waves.kind != WAVES_NONE) waves_update(&state->waves, scene, state->time);
+    if (scene->waves.kind != WAVES_NONE) {
+        double lap = step_clock();
+        waves_update(&state->waves, scene, state->time);
+        state->host_seconds[wave_maker(plan)] += step_clock() - lap;
+    }
     return true;
 }
 
-/// Spread the backend's clocks over the effects that asked for the work.
-static void share_clocks(State *state)
+/// Spread the backend's clocks over the effects that asked for the work. What water and walls do
+/// to each other in the sweeps counts to the base.
+static void share_clocks(const Plan *plan, State *state)
 {
     const double *c = state->backend->clocks(state->particles);
     double *e = state->effect_seconds;
-    e[EFFECT_VISCOSITY] = c[CLOCK_MOMENTUM] * state->pair_cost[0];
-    e[EFFECT_DIFFUSION] = c[CLOCK_DENSITY] * state->pair_cost[1];
-    e[EFFECT_WALLS] = c[CLOCK_EXTRAPOLATE];
-    e[EFFECT_RING] = e[EFFECT_PISTON] = 0;
-    e[EFFECT_RING] = c[CLOCK_DUMMIES];
-    e[EFFECT_ZONE] = c[CLOCK_ZONE];
-    e[EFFECT_BODIES] = c[CLOCK_LOADS] + state->body_seconds - state->contact_seconds;
-    e[EFFECT_CONTACTS] = state->contact_seconds;
-    e[EFFECT_LINES] = state->line_seconds;
-    e[EFFECT_GAUGES] = state->probe_seconds;
-    e[EFFECT_ENERGY] = c[CLOCK_WORKS];
-    state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] + c[CLOCK_MOMENTUM] +
-                          c[CLOCK_DENSITY] - e[EFFECT_VISCOSITY] - e[EFFECT_DIFFUSION];
+    memcpy(e, state->host_seconds, sizeof state->host_seconds);
+    e[EFFECT_VISCOSITY] += c[CLOCK_MOMENTUM] * state->pair_cost[0];
+    e[EFFECT_DIFFUSION] += c[CLOCK_DENSITY] * state->pair_cost[1];
+    e[EFFECT_WALLS] += c[CLOCK_EXTRAPOLATE];
+    e[EFFECT_MOVING_BOUNDARIES] += c[CLOCK_EXTRAPOLATE_MOVING] + c[CLOCK_DUMMIES];
+    e[EFFECT_RING] += c[CLOCK_RING];
+    e[EFFECT_PISTON] += c[CLOCK_PISTON];
+    e[plan->effects[EFFECT_BEACH].active ? EFFECT_BEACH : EFFECT_ZONE] += c[CLOCK_ZONE];
+    e[EFFECT_BODIES] += c[CLOCK_LOADS];
+    e[EFFECT_ENERGY] += c[CLOCK_WORKS];
+    state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] +
+                          c[CLOCK_MOMENTUM] * (1 - state->pair_cost[0]) +
+                          c[CLOCK_DENSITY] * (1 - state->pair_cost[1]);
 }
 
 bool step_advance(const Scene *scene, const Plan *plan, State *state, Error *error)
 {
-    double begin = wall_clock();
+    double begin = step_clock();
     health_checkpoint(scene, state);
     ParticleSums sums;
     double dt = state->time_step;
@@ -236,8 +258,8 @@ bool step_advance(const Scene *scene, const Plan *plan, State *state, Error *err
     good = health_judge(scene, plan, state, good ? &sums : NULL, error);
     state->smallest_step = mind(state->smallest_step, dt);
     state->largest_step = maxd(state->largest_step, dt);
-    share_clocks(state);
-    state->wall_time += wall_clock() - begin;
+    share_clocks(plan, state);
+    state->wall_time += step_clock() - begin;
     return good;
 }
 

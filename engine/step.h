@@ -13,4 +13,7 @@ Advance step_orders(const Scene *scene, const Plan *plan, State *state, double d
 /// Place of a line's end now, and its velocity.
 void step_line_end(const State *state, const LineEnd *end, Vec3 *position, Vec3 *velocity);
 
+/// The wall clock by which effects are timed [s].
+double step_clock(void);
+
 #endif

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "effects.h"
 #include "json.h"
 
 static double degrees(double radians) { return radians * (180.0 / PI); }
@@ -28,11 +29,19 @@ static void print_effects(const Plan *plan, bool active)
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const EffectPlan *effect = &plan->effects[i];
         if (effect->active != active) continue;
+        const char *kind = effect->kind == EFFECT_PAIR ? "pair" : "pass";
+        if (!active) {
+            printf("  %-20s %-4s off because %s; called for by %s\n", effect->name, kind,
+                   effect->because, effect->called_by);
+            continue;
+        }
         format_bytes((double)effect->bytes, bytes, sizeof bytes);
-        printf("  %-20s %-4s %8s  %s\n", effect->name,
-               effect->kind == EFFECT_PAIR ? "pair" : "pass", bytes, effect->because);
-        if (active && isfinite(effect->step_limit))
-            printf("  %-20s      stable up to a step of %.3g s\n", "", effect->step_limit);
+        printf("  %-20s %-4s on because %s\n", effect->name, kind, effect->because);
+        printf("  %-20s      %s: %s\n", "", bytes, effect->arrays);
+        if (isfinite(effect->step_limit))
+            printf("  %-20s      stable up to a step of %.3g s: %s\n", "", effect->step_limit,
+                   effect->step);
+        printf("  %-20s      %s\n", "", effect->source);
     }
 }
 
@@ -114,24 +123,6 @@ static void write_point(Json *json, const char *key, Vec3 point)
     json_array_end(json);
 }
 
-static void write_effects(Json *json, const Plan *plan)
-{
-    json_array(json, "effects");
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        const EffectPlan *effect = &plan->effects[i];
-        json_object(json, NULL);
-        json_string(json, "name", effect->name);
-        json_string(json, "kind", effect->kind == EFFECT_PAIR ? "pair" : "pass");
-        json_bool(json, "active", effect->active);
-        json_string(json, "because", effect->because);
-        json_integer(json, "bytes", (int64_t)effect->bytes);
-        json_number(json, "step_limit_s", effect->step_limit);
-        json_string(json, "source", effect->source);
-        json_object_end(json);
-    }
-    json_array_end(json);
-}
-
 static void write_bodies(Json *json, const Scene *scene, const Plan *plan)
 {
     json_array(json, "bodies");
@@ -204,7 +195,7 @@ static void print_json(const Scene *scene, const Plan *plan)
     json_string(&json, "time_step_limit", plan->time_step_limit);
     json_number(&json, "zone_width_m", plan->zone_width);
     json_number(&json, "seconds_per_simulated_second", plan->predicted_slowness);
-    write_effects(&json, plan);
+    effects_write(&json, plan);
     write_bodies(&json, scene, plan);
     write_lines(&json, scene, plan);
     json_string(&json, "notes", scene->notes);

@@ -228,7 +228,8 @@ int command_run(int count, char **words)
     OptionsResult result = read_options(count, words, &options, &error);
     if (result == OPTIONS_HELP) return EXIT_GOOD;
     if (result == OPTIONS_REFUSED) return report(&error);
-    EngineOptions engine = {.threads = options.threads, .backend = options.backend};
+    EngineOptions engine = {
+        .threads = options.threads, .backend = options.backend, .pictures = options.frames > 0};
     if (!prepare(options.path, &options.overrides, &engine, &run.prepared, &error))
         return report(&error);
     interrupt_catch();

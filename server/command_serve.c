@@ -127,7 +127,8 @@ int command_serve(int count, char **words)
     if (result == OPTIONS_HELP) return EXIT_GOOD;
     if (result == OPTIONS_REFUSED) return report(&error);
     char path[2 * SCENE_PATH_SIZE], page[2 * SCENE_PATH_SIZE];
-    EngineOptions engine = {.threads = options.threads, .backend = options.backend};
+    EngineOptions engine = {
+        .threads = options.threads, .backend = options.backend, .pictures = true};
     WebOptions web = {options.bind, options.port, find_page(options.page, page, sizeof page)};
     Prepared prepared;
     interrupt_catch();

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "effects.h"
 #include "protocol.h"
 
 static double degrees(double radians) { return radians * (180.0 / PI); }
@@ -71,22 +72,6 @@ static void write_warnings(Json *json, const char *plan, const char *server)
     json_array_end(json);
 }
 
-static void write_effects(Json *json, const Plan *plan)
-{
-    json_array(json, "effects");
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        const EffectPlan *effect = &plan->effects[i];
-        json_object(json, NULL);
-        json_string(json, "name", effect->name);
-        json_string(json, "kind", effect->kind == EFFECT_PAIR ? "pair" : "pass");
-        json_bool(json, "active", effect->active);
-        json_string(json, "because", effect->because);
-        json_integer(json, "bytes", (int64_t)effect->bytes);
-        json_object_end(json);
-    }
-    json_array_end(json);
-}
-
 static void write_names(Json *json, const Scene *scene)
 {
     json_array(json, "bodies");
@@ -149,7 +134,7 @@ void protocol_format_hello(Text *text, const HelloInfo *info)
     write_view(&json, info->view);
     json_object_end(&json);
     write_warnings(&json, plan->warnings, info->warning);
-    write_effects(&json, plan);
+    effects_write(&json, plan);
     json_object_end(&json);
 }
 

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "effects.h"
+
 static void write_health(Json *json, const SummaryInfo *info)
 {
     static const char *const words[] = {"good", "recovered", "failed"};
@@ -15,27 +17,6 @@ static void write_health(Json *json, const SummaryInfo *info)
     json_integer(json, "recoveries", health->recoveries);
     json_integer(json, "lost_particles", health->lost);
     json_object_end(json);
-}
-
-static void write_effects(Json *json, const SummaryInfo *info)
-{
-    const State *state = info->state;
-    double total = state->base_seconds;
-    for (int i = 0; i < EFFECT_COUNT; i++)
-        total += state->effect_seconds[i];
-    json_array(json, "effects");
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        const EffectPlan *effect = &info->plan->effects[i];
-        if (!effect->active) continue;
-        json_object(json, NULL);
-        json_string(json, "name", effect->name);
-        json_string(json, "kind", effect->kind == EFFECT_PAIR ? "pair" : "pass");
-        json_integer(json, "bytes", (int64_t)effect->bytes);
-        json_number(json, "wall_s", state->effect_seconds[i]);
-        json_number(json, "share", total > 0 ? state->effect_seconds[i] / total : 0);
-        json_object_end(json);
-    }
-    json_array_end(json);
 }
 
 static void write_lines(Json *json, const SummaryInfo *info)
@@ -86,7 +67,7 @@ void summary_format(Text *text, const SummaryInfo *info)
     json_object_end(&json);
     json_number(&json, "largest_density_error", state->largest_density_error);
     write_health(&json, info);
-    write_effects(&json, info);
+    effects_write_costs(&json, info->plan, info->state);
     write_lines(&json, info);
     json_integer(&json, "frames", info->frame_count);
     json_string(&json, "exit", reasons[info->how]);

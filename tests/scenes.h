@@ -36,7 +36,7 @@ static Run *start(const Scene *scene, int threads)
 {
     Run *run = calloc(1, sizeof *run);
     run->scene = *scene;
-    EngineOptions options = {threads, "cpu", 0};
+    EngineOptions options = {.threads = threads, .backend = "cpu"};
     bool good = plan_build(&run->scene, &options, &run->plan, &error) &&
                 state_create(&run->scene, &run->plan, &run->state, &error);
     if (!good) printf("  %s\n", error.message);

@@ -113,11 +113,14 @@ typedef struct FluidWorks {
 /// Wall time of the last forces + advance [s], by what it was spent on.
 typedef enum BackendClock {
     CLOCK_SORT,
-    CLOCK_EXTRAPOLATE,
+    CLOCK_EXTRAPOLATE,        ///< to fixed dummies
+    CLOCK_EXTRAPOLATE_MOVING, ///< to moving ones
     CLOCK_MOMENTUM,
     CLOCK_DENSITY,
     CLOCK_LOADS,
-    CLOCK_DUMMIES,
+    CLOCK_DUMMIES, ///< moving them, beside:
+    CLOCK_RING,    ///< where the ring is to be
+    CLOCK_PISTON,  ///< where the piston is to be
     CLOCK_INTEGRATE,
     CLOCK_ZONE,
     CLOCK_WORKS,

@@ -283,16 +283,12 @@ static void zero_rates(Backend *b, int rates)
     }
 }
 
-static void extrapolate_walls(Backend *b)
+static void extrapolate_walls(Backend *b, int set)
 {
-    for (int set = 0; set < 2; set++) {
-        int clusters = b->sweep.walls[set]->cluster_count;
-        if (!b->sweep.walls[set]->count) continue;
+    int clusters = b->sweep.walls[set]->cluster_count;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(b->setup.threads)
-        for (int begin = 0; begin < clusters; begin += 64)
-            b->table->extrapolate(&b->sweep, set, begin,
-                                  begin + 64 < clusters ? begin + 64 : clusters);
-    }
+    for (int begin = 0; begin < clusters; begin += 64)
+        b->table->extrapolate(&b->sweep, set, begin, begin + 64 < clusters ? begin + 64 : clusters);
 }
 
 /// Reactions on the dummies of each body, summed in slot order: the same bits for any thread count.
@@ -325,8 +321,14 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
     LAP(CLOCK_SORT);
     zero_rates(b, 3);
     LAP(CLOCK_INTEGRATE);
-    extrapolate_walls(b);
-    LAP(CLOCK_EXTRAPOLATE);
+    if (b->fixed.count) {
+        extrapolate_walls(b, 0);
+        LAP(CLOCK_EXTRAPOLATE);
+    }
+    if (b->moving.count) {
+        extrapolate_walls(b, 1);
+        LAP(CLOCK_EXTRAPOLATE_MOVING);
+    }
     if (b->setup.works) {
         works_before_momentum(b);
         LAP(CLOCK_WORKS);
@@ -424,7 +426,8 @@ static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density
     int slots = b->fluid.cluster_count * CLUSTER;
     const SweepConstants *c = &b->sweep.constants;
     zero_rates(b, 3);
-    extrapolate_walls(b);
+    for (int set = 0; set < 2; set++)
+        if (b->sweep.walls[set]->count) extrapolate_walls(b, set);
     cpu_sweep_fluid(b, b->table->acceleration[(b->setup.pair_mask & PAIR_VISCOSITY) != 0]);
     for (int s = 0; s < slots; s++)
         for (int a = 0; a < 3 && b->fluid.id[s] >= 0; a++)

@@ -155,7 +155,8 @@ static bool block_barrier(const Backend *b, ParticleSet *f, int begin, int end, 
 }
 
 /// Where moving dummies are to be at the end of the step, into `target`.
-static void block_targets(Backend *b, const Advance *advance, int begin, int end)
+/// @param spent  [2] what the piston and the ring took is added [s]
+static void block_targets(Backend *b, const Advance *advance, int begin, int end, double *spent)
 {
     ParticleSet *m = &b->moving;
     Vec3 mean[BLOCK], place[BLOCK];
@@ -169,7 +170,9 @@ static void block_targets(Backend *b, const Advance *advance, int begin, int end
             slot[count++] = i;
         }
         if (!count || !move) continue;
+        double start = cpu_clock();
         move(advance->waves, then, count, mean, place);
+        spent[owner - OWNER_PISTON] += cpu_clock() - start;
         for (int k = 0; k < count; k++) {
             m->target[0][slot[k]] = to_coordinate(&b->grid, 0, place[k].x);
             m->target[1][slot[k]] = to_coordinate(&b->grid, 1, place[k].y);
@@ -208,13 +211,22 @@ static void block_move_halfway(Backend *b, double dt, int begin, int end)
 static void move_dummies_halfway(Backend *b, const Advance *advance)
 {
     int slots = b->moving.cluster_count * CLUSTER;
-#pragma omp parallel for schedule(static) num_threads(b->setup.threads)
+    double start = cpu_clock(), piston = 0, ring = 0;
+#pragma omp parallel for schedule(static) num_threads(b->setup.threads) reduction(+ : piston, ring)
     for (int begin = 0; begin < slots; begin += BLOCK) {
         int end = block_end(&b->moving, begin);
-        block_targets(b, advance, begin, end);
+        double spent[2] = {0, 0};
+        block_targets(b, advance, begin, end, spent);
         block_move_halfway(b, advance->dt, begin, end);
+        piston += spent[0];
+        ring += spent[1];
     }
     b->first_step = false;
+    piston /= b->setup.threads;
+    ring /= b->setup.threads;
+    b->clock[CLOCK_PISTON] += piston;
+    b->clock[CLOCK_RING] += ring;
+    b->clock[CLOCK_DUMMIES] += cpu_clock() - start - piston - ring;
 }
 
 static void finish_dummies(Backend *b)
@@ -228,8 +240,9 @@ static void finish_dummies(Backend *b)
 
 void AT_LEVEL(step_place)(Backend *b, const Advance *advance)
 {
+    double spent[2] = {0, 0}; // not a part of a step
     for (int begin = 0; begin < b->moving.cluster_count * CLUSTER; begin += BLOCK)
-        block_targets(b, advance, begin, block_end(&b->moving, begin));
+        block_targets(b, advance, begin, block_end(&b->moving, begin), spent);
     finish_dummies(b);
     b->sorted = b->boxes_fresh = false;
 }
@@ -382,11 +395,10 @@ static void kick_and_drift(Backend *b, const Advance *advance)
 
 void AT_LEVEL(step_advance)(Backend *b, const Advance *advance, ParticleSums *sums)
 {
-    double start = cpu_clock(), now;
-#define LAP(which) (now = cpu_clock(), b->clock[which] += now - start, start = now)
     b->last_step = advance->dt;
     if (b->moving.count) move_dummies_halfway(b, advance);
-    LAP(CLOCK_DUMMIES);
+    double start = cpu_clock(), now;
+#define LAP(which) (now = cpu_clock(), b->clock[which] += now - start, start = now)
     if (b->setup.works) {
         works_before_kick(b);
         LAP(CLOCK_WORKS);

@@ -96,6 +96,14 @@ static FluidEnergy none_energy(const Backend *backend)
     return energy;
 }
 
+static FluidWorks none_works(const Backend *backend)
+{
+    (void)backend;
+    FluidWorks works;
+    memset(&works, 0, sizeof works);
+    return works;
+}
+
 static size_t none_state_size(const Backend *backend)
 {
     (void)backend;
@@ -155,6 +163,7 @@ const BackendTable *backend_none(void)
         .wetness = none_wetness,
         .columns = none_columns,
         .energy = none_energy,
+        .works = none_works,
         .state_size = none_state_size,
         .save = none_save,
         .restore = none_restore,

@@ -122,7 +122,7 @@ if command -v node >/dev/null; then
         const e = JSON.parse(require("fs").readFileSync(0, "utf8"));
         const effect = e.effects[0];
         if (!(e.particles > 0 && e.bytes > 0 && e.time_step_s > 0 && effect.name && effect.kind &&
-              typeof effect.active === "boolean" && effect.because && effect.bytes >= 0)) process.exit(1)' \
+              typeof effect.active === "boolean" && effect.because && effect.called_by && effect.source && effect.bytes >= 0)) process.exit(1)' \
         <"$work/explained"
 fi
 

@@ -97,8 +97,14 @@ bool scene_load(const char *path, const char *const *overrides, int override_cou
 }
 
 static const EffectPlan effect_table[EFFECT_COUNT] = {
-#define EFFECT(id, effect_name, effect_kind, effect_source)                                        \
-    {.name = effect_name, .kind = effect_kind, .source = effect_source, .step_limit = INFINITY},
+#define EFFECT(id, name_, kind_, called_by_, arrays_, step_, source_)                              \
+    {.name = name_,                                                                                \
+     .kind = kind_,                                                                                \
+     .called_by = called_by_,                                                                      \
+     .arrays = arrays_,                                                                            \
+     .step = step_,                                                                                \
+     .source = source_,                                                                            \
+     .step_limit = INFINITY},
 #include "effects.def"
 #undef EFFECT
 };
@@ -287,7 +293,7 @@ void series_table(const Scene *scene, SeriesTable *table)
         snprintf(table->names[i], SERIES_COLUMN_SIZE, "%s", names[i]);
 }
 
-void series_sample(const Scene *scene, const Plan *plan, const State *state, double *row)
+void series_sample(const Scene *scene, const Plan *plan, State *state, double *row)
 {
     row[0] = state->time;
     row[1] = elevation(&state->waves.asked, 0, 0, state->time);

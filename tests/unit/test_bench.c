@@ -42,7 +42,7 @@ TEST(neighbours_are_those_that_lie_within_the_support)
     Scene *scene = calloc(1, sizeof *scene);
     Plan *plan = calloc(1, sizeof *plan);
     State *state = NULL;
-    EngineOptions options = {2, "cpu", 0};
+    EngineOptions options = {.threads = 2, .backend = "cpu"};
     *scene = scene_default();
     scene->domain.min = vec3(-0.4, -0.3, -0.35);
     scene->domain.max = vec3(0.4, 0.3, 0.1);

@@ -39,7 +39,7 @@ static Dry *dry(Scene scene)
 {
     Dry *run = calloc(1, sizeof *run);
     run->scene = scene;
-    EngineOptions options = {1, "cpu", 0};
+    EngineOptions options = {.threads = 1, .backend = "cpu"};
     CHECK(plan_build(&run->scene, &options, &run->plan, &error));
     for (int b = 0; b < scene.body_count; b++)
         run->bodies[b] = body_create(&run->scene.bodies[b], &run->plan.bodies[b].geometry);

@@ -12,7 +12,7 @@ typedef struct Filled {
 static Filled fill_case(const Scene *scene, int threads)
 {
     Filled filled = {.arena = arena_create(0)};
-    EngineOptions options = {threads, "cpu", 0};
+    EngineOptions options = {.threads = threads, .backend = "cpu"};
     CHECK(plan_build(scene, &options, &filled.plan, &error));
     CHECK(fill_create(scene, &filled.plan, &filled.arena, &filled.fill, &error));
     return filled;

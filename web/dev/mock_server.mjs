@@ -24,7 +24,11 @@ const BLEND_PERIODS = 1.5;
 const body = ["surge_m", "sway_m", "heave_m", "roll_deg", "pitch_deg", "yaw_deg", "fluid_fx_n", "fluid_fy_n", "fluid_fz_n", "fluid_mx_nm", "fluid_my_nm", "fluid_mz_nm"];
 const line = ["fairlead_tension_n", "anchor_tension_n", "largest_tension_n", "touchdown_m"];
 const columns = ["t_s", ...body.map((name) => `ship.${name}`), ...line.map((name) => `bow_line.${name}`), "g1.elevation_m", "g2.elevation_m"];
-const effect = (name, kind, active, because, bytes = 0) => ({ name, kind, active, because, bytes });
+const effect = (name, kind, active, because, bytes = 0) => ({
+  name, kind, active, because, bytes,
+  called_by: "a case", arrays: "none", step: "", step_limit_s: null, source: "synthetic",
+  cost: kind === "pair" ? "sampled" : "clocked",
+});
 const HELLO = {
   type: "hello",
   protocol: 1,

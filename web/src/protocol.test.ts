@@ -41,7 +41,10 @@ const HELLO = {
   camera: { azimuth_deg: 120, elevation_deg: 15, distance_m: 8, target_m: [0, 0, 0] },
   view: { width: 960, height: 540, water: "surface", field: "none", dark: false },
   warnings: ["coarse"],
-  effects: [{ name: "walls", kind: "pass", active: true, because: "a tank has walls", bytes: 100 }],
+  effects: [{
+    name: "walls", kind: "pass", active: true, because: "a tank has walls", called_by: "domain.kind", bytes: 100,
+    arrays: "dummies", step_limit_s: null, step: "", cost: "clocked", source: "Adami et al. 2012",
+  }],
 };
 
 function parse(value: unknown) {

@@ -60,7 +60,13 @@ const effect = object({
   kind: oneOf("pair", "pass"),
   active: flag,
   because: text,
+  called_by: text,
   bytes: number,
+  arrays: text,
+  step_limit_s: numberOrNaN,
+  step: text,
+  cost: oneOf("clocked", "sampled", "elsewhere"),
+  source: text,
 });
 export type Effect = Value<typeof effect>;
 
