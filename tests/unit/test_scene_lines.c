@@ -83,7 +83,7 @@ TEST(lines_meet_at_points)
                ", \"anchor\": {\"position_m\": [8, 0, -10]}, \"fairlead\": {\"point\": \"clump\"}, "
                "\"length_m\": 5},"
                "{\"name\": \"b\", " CHAIN ", \"anchor\": {\"point\": \"clump\"}, \"fairlead\": "
-                                          "{\"point\": \"bollard\"}, \"length_m\": 9}]"));
+               "{\"point\": \"bollard\"}, \"length_m\": 9}]"));
     CHECK(scene.point_count == 2 && scene.points[0].kind == POINT_FREE);
     CHECK(scene.lines[0].fairlead.point == 0 && scene.lines[1].anchor.point == 0);
     CHECK(scene.lines[1].fairlead.point == 1 && scene.lines[1].fairlead.body == 0);
