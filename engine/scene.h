@@ -208,10 +208,10 @@ typedef enum LineWater {
 } LineWater;
 
 /// What may be done to a line's length while it runs.
-typedef struct Winch {
+typedef struct WinchScene {
     Range length; ///< unstretched, of the whole line [m]
     double speed; ///< at most [m/s]; 0 = there is no winch
-} Winch;
+} WinchScene;
 
 typedef struct LineScene {
     char name[SCENE_NAME_SIZE];
@@ -233,7 +233,7 @@ typedef struct LineScene {
     double bending_stiffness; ///< EI [N m^2]; 0 = none
     double breaking_tension;  ///< a segment that carries more parts [N]; 0 = never
     LineWater water;
-    Winch winch;
+    WinchScene winch;
     int section_count;                             ///< 0 = the same from end to end
     LineSection sections[SCENE_LINE_SECTIONS_MAX]; ///< anchor first
 } LineScene;
