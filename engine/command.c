@@ -44,7 +44,7 @@ bool command_check(const Scene *scene, const Command *command, const WaveTarget 
     const Waves *waves = &scene->waves;
     if (waves->kind == WAVES_NONE)
         return error_set(error, ERROR_INPUT,
-                         "wave: this case has no waves to change: waves.kind must be \"regular\"");
+                         "wave: this case has no waves to change: waves.kind is \"none\"");
     WaveTarget sea;
     TRY(choose("wave.height_m", command->wave_height, last->height, waves->height_limits, 1, "m",
                &sea.height, error));

@@ -77,7 +77,9 @@ static void write_fluid(const Box *box, Fill *fill, int n, Vec3 mean, Vec3 shift
     fill->fluid_position[n] = vec3_add(mean, shift);
     fill->fluid_velocity[n] = vec3(0, 0, 0);
     if (waves) {
-        fill->fluid_velocity[n] = waves_zone_velocity(waves, fill->fluid_position[n], 0);
+        fill->fluid_velocity[n] = waves->sea
+                                      ? waves_orbit_velocity(waves, mean, 0)
+                                      : waves_zone_velocity(waves, fill->fluid_position[n], 0);
         // a particle keeps its mean pressure but for what deep water theory leaves out:
         // p_dynamic/(rho g) - zeta = eta cosh K/cosh kd - zeta
         const WaveTerms *w = &waves->layers[0].train.terms;
@@ -134,20 +136,26 @@ static double box_mass(const Scene *scene, const Plan *plan, Vec3 min, Vec3 max)
     return scene->fluid.density * l.pitch[0] * l.pitch[1] * high;
 }
 
-static void fill_water(const Scene *scene, const Plan *plan, Fill *fill)
+static bool fill_water(const Scene *scene, const Plan *plan, Fill *fill, Error *error)
 {
     const Domain *domain = &scene->domain;
     WaveState state;
+    Arena sea = arena_create(0);
+    bool good = true;
     bool hot = scene->waves.kind != WAVES_NONE && scene->waves.start == WAVE_START_HOT &&
                domain->kind == DOMAIN_BASIN;
-    if (hot) state = waves_create(scene);
-    if (!scene->fluid.block_count) {
+    if (hot) {
+        state = waves_create(scene);
+        good = waves_take_sea(&state, scene, &sea, error);
+    }
+    if (!scene->fluid.block_count && good) {
         Vec3 top = domain->max;
         top.z = scene->fluid.level;
         fill->particle_mass = box_mass(scene, plan, domain->min, top);
         fill_box(scene, plan, hot ? &state : NULL, fill, domain->min, top);
-        return;
     }
+    arena_destroy(&sea);
+    if (!scene->fluid.block_count) return good;
     double mass = 0;
     for (int b = 0; b < scene->fluid.block_count; b++) {
         const FluidBlock *block = &scene->fluid.blocks[b];
@@ -155,6 +163,7 @@ static void fill_water(const Scene *scene, const Plan *plan, Fill *fill)
         fill_box(scene, plan, NULL, fill, block->min, block->max);
     }
     fill->particle_mass = mass;
+    return true;
 }
 
 static void add_dummy(Fill *fill, int *count, Vec3 reference, int owner)
@@ -218,15 +227,16 @@ static void fill_walls(const Scene *scene, const Plan *plan, Fill *fill)
             }
 }
 
-void fill_particles(const Scene *scene, const Plan *plan, Fill *fill)
+bool fill_particles(const Scene *scene, const Plan *plan, Fill *fill, Error *error)
 {
     fill->fluid_count = fill->wall_count = fill->ring_count = 0;
     fill->piston_count = fill->body_count = 0;
-    fill_water(scene, plan, fill);
+    TRY(fill_water(scene, plan, fill, error));
     fill_walls(scene, plan, fill);
     for (int b = 0; b < scene->body_count; b++)
         for (int p = 0; p < plan->bodies[b].particle_count; p++)
             add_dummy(fill, &fill->body_count, plan->bodies[b].particles[p], b);
+    return true;
 }
 
 bool fill_create(const Scene *scene, const Plan *plan, Arena *arena, Fill *fill, Error *error)
@@ -239,6 +249,5 @@ bool fill_create(const Scene *scene, const Plan *plan, Arena *arena, Fill *fill,
     TRY(fill->fluid_excess = arena_take(arena, fluid, sizeof(float), "start.excess", error));
     TRY(fill->dummy_reference = arena_take(arena, dummies, sizeof(Vec3), "start.dummies", error));
     TRY(fill->dummy_owner = arena_take(arena, dummies, sizeof(int16_t), "start.owners", error));
-    fill_particles(scene, plan, fill);
-    return true;
+    return fill_particles(scene, plan, fill, error);
 }

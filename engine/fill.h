@@ -19,7 +19,7 @@ typedef struct Fill {
 
 /// Count only: fill->fluid_position is NULL; otherwise write as well. The plan needs its smoothing
 /// length, layers, sound speed and bodies by then.
-void fill_particles(const Scene *scene, const Plan *plan, Fill *fill);
+bool fill_particles(const Scene *scene, const Plan *plan, Fill *fill, Error *error);
 
 /// Room for the particles that the plan counted, then the particles.
 bool fill_create(const Scene *scene, const Plan *plan, Arena *arena, Fill *fill, Error *error);

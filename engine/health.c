@@ -35,6 +35,7 @@ static void roll_back(const Scene *scene, State *state)
     state->step = c->step;
     state->waves = c->waves;
     state->line_work = c->line_work;
+    waves_refresh(&state->waves);
     memcpy(state->bodies, c->bodies, (size_t)scene->body_count * sizeof(Body));
     memcpy(state->slammings, c->slammings, (size_t)scene->slamming_count * sizeof(Slamming));
     for (int l = 0; l < scene->line_count; l++)

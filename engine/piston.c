@@ -1,6 +1,8 @@
 #include "piston.h"
 
-#include "waves.h"
+#include <math.h>
+
+#include "sea.h"
 
 double piston_stroke_ratio(double kd)
 {
@@ -9,23 +11,49 @@ double piston_stroke_ratio(double kd)
     return (sinh(2 * kd) + 2 * kd) / (2 * (cosh(2 * kd) - 1));
 }
 
-/// First-order piston: the far field is eta = a cos(kx - omega t + phase), so the paddle's velocity
-/// is in phase with the elevation it makes and its displacement a quarter period behind.
-static double piston_displacement(const WaveState *waves, double time)
+double piston_second_ratio(double kd, double height, double depth)
 {
-    double displacement = 0, below = 1;
-    for (int i = waves->layer_count - 1; i >= 0; i--) {
-        const WaveLayer *layer = &waves->layers[i];
-        double s = layer->duration > 0 ? (time - layer->begin) / layer->duration : 1;
-        s = s < 0 ? 0 : (s > 1 ? 1 : s);
-        double opacity = i == 0 && layer->duration <= 0 ? 1 : s * s * s * (10 - 15 * s + 6 * s * s);
-        const WaveTrain *t = &layer->train;
-        double half_stroke =
-            t->amplitude * piston_stroke_ratio(t->terms.wave_number * t->terms.depth);
-        double angle = t->terms.angular_frequency * (time - t->time_origin) - t->phase;
-        displacement += below * opacity * half_stroke * sin(angle);
-        below *= 1 - opacity;
+    if (kd > 100) return -height * height * piston_stroke_ratio(kd) / (16 * depth);
+    double s = sinh(kd);
+    return height * height / (32 * depth) *
+           (3 * cosh(kd) / (s * s * s) - 2 * piston_stroke_ratio(kd));
+}
+
+/// The far field is eta = a cos(kx - omega t + phase), so the paddle's velocity is in phase with
+/// the elevation it makes and its displacement a quarter period behind.
+static double regular_stroke(const WaveState *waves, const WaveTrain *t, double time)
+{
+    const WaveTerms *w = &t->terms;
+    double kd = w->wave_number * w->depth;
+    double angle = w->angular_frequency * (time - t->time_origin) - t->phase -
+                   w->wave_number * (waves->interior.min[0] - t->centre_x);
+    double stroke = w->crest[1] * piston_stroke_ratio(kd) * sin(angle);
+    if (waves->piston_order < 2) return stroke;
+    return stroke + piston_second_ratio(kd, 2 * w->crest[1], w->depth) * sin(2 * angle);
+}
+
+static double sea_stroke(const Sea *sea, const SeaLayer *layer, double x, double time)
+{
+    double sum = 0;
+    for (int i = 0; i < sea->count && layer->target.height > 0; i++) {
+        double angle = layer->angular_frequency[i] * (time - layer->time_origin) -
+                       2 * PI * (layer->turns_x[i] * x + layer->turns[i]);
+        double amplitude = layer->amplitude[i] * (1 - layer->depth_ratio[i]);
+        sum += amplitude * piston_stroke_ratio(layer->wave_number[i] * sea->depth) * sin(angle);
     }
+    return sum;
+}
+
+double piston_displacement(const WaveState *waves, double time)
+{
+    double displacement = 0;
+    WaveStep weights[WAVE_LAYERS_MAX];
+    waves_layer_weights(waves, time, weights);
+    for (int i = 0; i < waves->layer_count; i++)
+        displacement +=
+            weights[i].value * (waves->sea ? sea_stroke(waves->sea, &waves->sea->layers[i],
+                                                        waves->interior.min[0], time)
+                                           : regular_stroke(waves, &waves->layers[i].train, time));
     return displacement;
 }
 

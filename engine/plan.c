@@ -219,7 +219,7 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
     TRY(hang_lines(scene, plan, error));
     choose_time_step(scene, plan);
     Fill fill = {0};
-    fill_particles(scene, plan, &fill);
+    TRY(fill_particles(scene, plan, &fill, error));
     plan->fluid_count = fill.fluid_count;
     plan->wall_count = fill.wall_count + fill.ring_count + fill.piston_count;
     plan->body_particle_count = fill.body_count;

@@ -63,7 +63,12 @@ typedef struct Fluid {
     FluidBlock blocks[SCENE_FLUID_BLOCKS_MAX];
 } Fluid;
 
-typedef enum WaveKind { WAVES_NONE, WAVES_REGULAR } WaveKind;
+typedef enum WaveKind {
+    WAVES_NONE,
+    WAVES_REGULAR,
+    WAVES_IRREGULAR, ///< height is the significant one, period the peak's
+    WAVES_FOCUSED,   ///< a group: height is twice its crest at the focus, period the peak's
+} WaveKind;
 /// How a regular wave is described (steady_wave.h).
 typedef enum WaveTheory {
     WAVE_THEORY_AUTO,    ///< the stream function
@@ -85,9 +90,29 @@ typedef struct Range {
     double min, max;
 } Range;
 
+typedef enum SpectrumKind { SPECTRUM_JONSWAP, SPECTRUM_PIERSON_MOSKOWITZ } SpectrumKind;
+
+/// What an irregular sea or a group is made of (sea.h).
+typedef struct Spectrum {
+    SpectrumKind kind;
+    double peak_enhancement; ///< gamma of JONSWAP [-], >= 1
+    double spreading;        ///< s of cos^2s(theta/2) [-]; 0 = long-crested
+    int components;          ///< 8 to 512
+    int seed;                ///< of phases and directions
+} Spectrum;
+
+/// Where and when the crests of a group meet.
+typedef struct Focus {
+    double x, y; ///< [m]
+    double time; ///< [s]
+} Focus;
+
 typedef struct Waves {
     WaveKind kind;
     WaveTheory theory;
+    Spectrum spectrum; ///< irregular, focused
+    Focus focus;       ///< focused
+    int piston_order;  ///< flume: 1, or 2 with the piston's own second harmonic
     WaveTarget initial;
     WaveStart start;
     double ramp_time;     ///< time to grow from rest [s] (ramp start)

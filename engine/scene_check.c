@@ -150,6 +150,30 @@ static bool check_wave_heights(const JsonReader *reader, const Scene *scene)
     return true;
 }
 
+static bool check_spectrum(const JsonReader *reader, const Scene *scene)
+{
+    const Waves *waves = &scene->waves;
+    const Domain *domain = &scene->domain;
+    bool plane = domain->dimensions == 2 || domain->kind == DOMAIN_FLUME;
+    if (waves->kind == WAVES_REGULAR) return true;
+    if (plane && waves->spectrum.spreading > 0)
+        return table_refuse_number(reader, "waves.spectrum.spreading", waves->spectrum.spreading,
+                                   "must be 0 (long-crested) in 2-D and in a flume");
+    if (waves->kind != WAVES_FOCUSED) return true;
+    if (isnan(waves->focus.time))
+        return table_refuse(reader, "waves.focus.time_s", NULL,
+                            "is missing: must be >= 0 and <= 100000 s for a focused group");
+    if (waves->focus.x < domain->min.x || waves->focus.x > domain->max.x)
+        return table_refuse_number(reader, "waves.focus.x_m", waves->focus.x,
+                                   "must be >= %.9g and <= %.9g m (the domain)", domain->min.x,
+                                   domain->max.x);
+    if (!plane && (waves->focus.y < domain->min.y || waves->focus.y > domain->max.y))
+        return table_refuse_number(reader, "waves.focus.y_m", waves->focus.y,
+                                   "must be >= %.9g and <= %.9g m (the domain)", domain->min.y,
+                                   domain->max.y);
+    return true;
+}
+
 static bool check_waves(const JsonReader *reader, const Scene *scene)
 {
     const Waves *waves = &scene->waves;
@@ -165,6 +189,7 @@ static bool check_waves(const JsonReader *reader, const Scene *scene)
     TRY(check_limit(reader, "waves.heading_deg", waves->heading_limits, waves->initial.heading,
                     180 / PI, "deg"));
     TRY(check_wave_heights(reader, scene));
+    TRY(check_spectrum(reader, scene));
     double narrowest = domain->max.x - domain->min.x;
     if (domain->dimensions == 3) narrowest = mind(narrowest, domain->max.y - domain->min.y);
     if (domain->kind != DOMAIN_BASIN || waves_zone_width(scene) < narrowest / 2) return true;

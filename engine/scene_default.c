@@ -27,6 +27,12 @@ Scene scene_default(void)
 
     Waves *waves = &scene.waves;
     waves->kind = WAVES_NONE;
+    waves->spectrum.peak_enhancement = 3.3; // mean of JONSWAP: Hasselmann et al. (1973)
+    waves->spectrum.components = 64;
+    waves->spectrum.seed = 1;
+    waves->focus.x = waves->focus.y = 0;
+    waves->focus.time = NAN; // required for a group
+    waves->piston_order = 2;
     waves->initial.height = waves->initial.period = NAN;
     waves->initial.heading = 0;
     waves->start = WAVE_START_RAMP;

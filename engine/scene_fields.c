@@ -55,8 +55,25 @@ static const JsonField LIMIT_FIELDS[] = {
 };
 static const JsonTable LIMIT_TABLE = {LIMIT_FIELDS, COUNT(LIMIT_FIELDS), NULL};
 
+static const JsonField SPECTRUM_FIELDS[] = {
+    {"shape", FIELD_CHOICE, IN_CASE(scene.waves.spectrum.kind), .choices = {"jonswap", "pierson_moskowitz"}},
+    {"peak_enhancement", FIELD_NUMBER, IN_CASE(scene.waves.spectrum.peak_enhancement), .min = 1, .max = 20},
+    {"spreading", FIELD_NUMBER, IN_CASE(scene.waves.spectrum.spreading), .max = 200},
+    {"components", FIELD_INTEGER, IN_CASE(scene.waves.spectrum.components), .min = 8, .max = 512},
+    {"seed", FIELD_INTEGER, IN_CASE(scene.waves.spectrum.seed), .max = 2147483647},
+};
+static const JsonTable SPECTRUM_TABLE = {SPECTRUM_FIELDS, COUNT(SPECTRUM_FIELDS), NULL};
+
+static const JsonField FOCUS_FIELDS[] = {
+    {"x_m", FIELD_NUMBER, IN_CASE(scene.waves.focus.x), COORDINATE},
+    {"y_m", FIELD_NUMBER, IN_CASE(scene.waves.focus.y), COORDINATE},
+    {"time_s", FIELD_NUMBER, true, IN_CASE(scene.waves.focus.time), .max = 100000, .unit = "s"},
+};
+static const JsonTable FOCUS_TABLE = {FOCUS_FIELDS, COUNT(FOCUS_FIELDS), NULL};
+
 static const JsonField WAVE_FIELDS[] = {
-    {"kind", FIELD_CHOICE, true, IN_CASE(scene.waves.kind), .choices = {"none", "regular"}},
+    {"kind", FIELD_CHOICE, true, IN_CASE(scene.waves.kind),
+     .choices = {"none", "regular", "irregular", "focused"}},
     {"theory", FIELD_CHOICE, IN_CASE(scene.waves.theory),
      .choices = {"auto", "airy", "stokes2", "stokes5", "stream"}},
     {"height_m", FIELD_NUMBER, IN_CASE(scene.waves.initial.height), WAVE_HEIGHT},
@@ -66,6 +83,9 @@ static const JsonField WAVE_FIELDS[] = {
     {"ramp_s", FIELD_NUMBER, IN_CASE(scene.waves.ramp_time), .max = 1000, .unit = "s"},
     {"blend_periods", FIELD_NUMBER, IN_CASE(scene.waves.blend_periods), .min = 0.5, .max = 10},
     {"zone_width_m", FIELD_NUMBER, IN_CASE(scene.waves.zone_width), .max = 1000, .unit = "m"},
+    {"spectrum", FIELD_OBJECT, .table = &SPECTRUM_TABLE},
+    {"focus", FIELD_OBJECT, .table = &FOCUS_TABLE},
+    {"piston_order", FIELD_INTEGER, IN_CASE(scene.waves.piston_order), .min = 1, .max = 2},
     {"limits", FIELD_OBJECT, .table = &LIMIT_TABLE},
 };
 static const JsonTable WAVE_TABLE = {WAVE_FIELDS, COUNT(WAVE_FIELDS), NULL};

@@ -171,7 +171,8 @@ bool state_create(const Scene *scene, const Plan *plan, State **result, Error *e
     state->arena = arena;
     state->time_step = state->smallest_step = state->largest_step = plan->time_step;
     if (scene->waves.kind != WAVES_NONE) state->waves = waves_create(scene);
-    if (create_particles(scene, plan, state, error) &&
+    if (waves_take_sea(&state->waves, scene, &state->arena, error) &&
+        create_particles(scene, plan, state, error) &&
         create_bodies_and_lines(scene, plan, state, error) &&
         create_checkpoint(scene, state, error) && place_and_measure(scene, plan, state, error)) {
         *result = state;

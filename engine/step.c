@@ -156,6 +156,8 @@ static void zone_velocity(const void *context, double time, int count, const flo
     waves_zone_batch(context, time, count, x, y, z, u, v, w);
 }
 
+enum { SEA_EVERY = 8 };
+
 static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State *state)
 {
     const Domain *d = &scene->domain;
@@ -170,6 +172,9 @@ static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State 
     zone.side_min[1] = basin && d->dimensions == 3 ? d->min.y : -1e30;
     zone.side_max[1] = basin && d->dimensions == 3 ? d->max.y : 1e30;
     zone.target = basin ? zone_velocity : NULL;
+    // a sea's target costs as much as the particle itself; ten steps are still short beside tau
+    double steps = zone.time_scale / plan->time_step / 10;
+    zone.every = state->waves.sea && steps > 1 ? (int)mind(steps, SEA_EVERY) : 1;
     return zone;
 }
 
@@ -182,6 +187,7 @@ Advance step_orders(const Scene *scene, const Plan *plan, State *state, double d
         state->poses[b].attitude = state->bodies[b].attitude;
     }
     advance.time = state->time;
+    advance.step = state->step;
     advance.dt = dt;
     advance.poses = state->poses;
     advance.waves = &state->waves;

@@ -5,11 +5,15 @@
 
 #include "physics/wave_theory.h"
 #include "piston.h"
+#include "sea.h"
 #include "wave_orbits.h"
 
 /// Turning further, or changing the period by more than this share, takes the old sea down first.
 static const double FAR_HEADING = 60 * PI / 180;
 static const double FAR_PERIOD = 0.30;
+/// Expected largest of 1000 waves over the significant height, Rayleigh: sqrt(ln(1000)/2).
+/// Source: Longuet-Higgins (1952), J. Mar. Res. 11, 245.
+static const double LARGEST_OF_SEA = 1.86;
 /// A layer runs this share of its rise before the next may begin.
 static const double LAYER_SPACING = 1.0 / 3;
 /// Width of the relaxation zone and length of the beach in longest wave lengths (docs/physics.md).
@@ -23,6 +27,12 @@ double wave_number_airy(double angular_frequency, double depth, double gravity)
 }
 
 static double basin_depth(const Scene *scene) { return scene->fluid.level - scene->domain.min.z; }
+
+/// Whether the scene's waves are a sum of components.
+static bool waves_are_a_sea(const Scene *scene)
+{
+    return scene->waves.kind == WAVES_IRREGULAR || scene->waves.kind == WAVES_FOCUSED;
+}
 
 static double angle_between(double a, double b) { return fabs(remainder(a - b, 2 * PI)); }
 
@@ -94,6 +104,7 @@ WaveState waves_create(const Scene *scene)
     if (scene->waves.kind == WAVES_NONE) return waves;
     waves.asked = scene->waves.initial;
     waves.interior = interior_create(scene);
+    waves.piston_order = scene->waves.piston_order;
     WaveLayer *base = &waves.layers[0];
     base->target = waves.asked;
     base->train = train_create(scene, &waves.asked);
@@ -107,6 +118,19 @@ WaveState waves_create(const Scene *scene)
         waves.active = true;
     }
     return waves;
+}
+
+bool waves_take_sea(WaveState *waves, const Scene *scene, Arena *arena, Error *error)
+{
+    if (!waves_are_a_sea(scene)) return true;
+    TRY(sea_create(scene, arena, &waves->sea, error));
+    waves_refresh(waves);
+    return true;
+}
+
+void waves_refresh(const WaveState *waves)
+{
+    if (waves->sea) sea_refresh(waves->sea, waves);
 }
 
 /// Whether the target differs so much from a train still in the water that the two should not
@@ -137,6 +161,13 @@ static void layer_push(WaveState *waves, const WaveTrain *train, const WaveTarge
     layer->duration = duration;
     layer->train.time_origin = time + duration / 2;
     layer->train.phase = remainder(centre_phase(&top->train, layer->train.time_origin), 2 * PI);
+    // a sea counts its time in peak periods, so that the phases of all components meet; a group
+    // keeps its focus
+    if (waves->sea && !waves->sea->focused)
+        layer->train.time_origin -= (layer->train.time_origin - top->train.time_origin) *
+                                    target->period / top->target.period;
+    else if (waves->sea)
+        layer->train.time_origin = top->train.time_origin;
     waves->layer_count++;
 }
 
@@ -186,11 +217,11 @@ void waves_update(WaveState *waves, const Scene *scene, double time)
     if (waves->layer_count == 0) return;
     drop_covered(waves, time);
     if (waves->has_queued) admit(waves, scene, time);
+    waves_refresh(waves);
     waves->active = waves->layer_count > 1 || waves->has_queued;
 }
 
-/// Weights of all layers: w_i = b_i prod_{j > i} (1 - b_j), with time derivatives.
-static void layer_weights(const WaveState *waves, double time, WaveStep *weights)
+void waves_layer_weights(const WaveState *waves, double time, WaveStep *weights)
 {
     WaveStep cover = {1, 0, 0};
     for (int i = waves->layer_count - 1; i >= 0; i--) {
@@ -211,7 +242,7 @@ static void layer_weights(const WaveState *waves, double time, WaveStep *weights
 void waves_weights(const WaveState *waves, double time, double *from, double *to)
 {
     WaveStep weights[WAVE_LAYERS_MAX];
-    layer_weights(waves, time, weights);
+    waves_layer_weights(waves, time, weights);
     *to = waves->layer_count ? weights[waves->layer_count - 1].value : 0;
     *from = waves->layer_count ? 1 - *to : 0;
 }
@@ -221,7 +252,7 @@ WaveTarget waves_now(const WaveState *waves, double time)
     WaveStep weights[WAVE_LAYERS_MAX];
     WaveTarget now = {0, 0, 0};
     if (waves->layer_count == 0) return now;
-    layer_weights(waves, time, weights);
+    waves_layer_weights(waves, time, weights);
     double period = 0, x = 0, y = 0;
     for (int i = 0; i < waves->layer_count; i++) {
         const WaveTarget *target = &waves->layers[i].target;
@@ -246,7 +277,7 @@ int waves_terms(const WaveState *waves, double time, WaveTerms *terms)
 {
     WaveStep weights[WAVE_LAYERS_MAX];
     int count = 0;
-    layer_weights(waves, time, weights);
+    waves_layer_weights(waves, time, weights);
     for (int i = 0; i < waves->layer_count; i++) {
         const WaveTrain *train = &waves->layers[i].train;
         if (!(train->amplitude > 0)) continue;
@@ -272,6 +303,7 @@ static Vec3 motion_add(Vec3 sum, const WaveTerms *w, WaveMotion m, double weight
 
 Vec3 waves_displacement(const WaveState *waves, Vec3 mean, double time)
 {
+    if (waves->sea) return sea_displacement(waves, mean, time);
     WaveTerms terms[WAVE_LAYERS_MAX];
     int count = waves_terms(waves, time, terms);
     Vec3 sum = vec3(0, 0, 0);
@@ -285,6 +317,7 @@ Vec3 waves_displacement(const WaveState *waves, Vec3 mean, double time)
 
 Vec3 waves_orbit_velocity(const WaveState *waves, Vec3 mean, double time)
 {
+    if (waves->sea) return sea_orbit_velocity(waves, mean, time);
     WaveTerms terms[WAVE_LAYERS_MAX];
     int count = waves_terms(waves, time, terms);
     Vec3 sum = vec3(0, 0, 0);
@@ -307,6 +340,7 @@ static double elevation_sum(const WaveTerms *terms, int count, double x, double 
 
 double waves_elevation(const WaveState *waves, double x, double y, double time)
 {
+    if (waves->sea) return sea_elevation(waves, x, y, time);
     WaveTerms terms[WAVE_LAYERS_MAX];
     int count = waves_terms(waves, time, terms);
     return elevation_sum(terms, count, x, y);
@@ -330,10 +364,12 @@ static Vec3 field_sum(const WaveState *waves, Vec3 point, double time,
 
 Vec3 waves_velocity(const WaveState *waves, Vec3 point, double time)
 {
+    if (waves->sea) return sea_velocity(waves, point, time);
     return field_sum(waves, point, time, wave_velocity);
 }
 Vec3 waves_acceleration(const WaveState *waves, Vec3 point, double time)
 {
+    if (waves->sea) return sea_acceleration(waves, point, time);
     return field_sum(waves, point, time, wave_acceleration);
 }
 
@@ -375,6 +411,7 @@ static WaveMotion driftless(const WaveTerms *w, WavePlace p, DriftShare d)
 
 Vec3 waves_zone_velocity(const WaveState *waves, Vec3 point, double time)
 {
+    if (waves->sea) return sea_velocity(waves, point, time);
     WaveTerms terms[WAVE_LAYERS_MAX];
     int count = waves_terms(waves, time, terms);
     double eta = elevation_sum(terms, count, point.x, point.y);
@@ -412,9 +449,9 @@ double waves_wall_reach(const Scene *scene)
     double height = maxd(w->initial.height, w->height_limits.max);
     double k = 2 * PI / wave_length(scene, maxd(w->initial.period, w->period_limits.max));
     double kd = k * basin_depth(scene);
-    // first order at the surface, a quarter more for the second
+    // first order at the surface, a quarter more for the second; of a sea the largest of 1000 waves
     double ratio = scene->domain.kind == DOMAIN_FLUME ? piston_stroke_ratio(kd) : 1 / tanh(kd);
-    return 1.25 * 0.5 * height * ratio;
+    return 1.25 * 0.5 * height * (w->kind == WAVES_IRREGULAR ? LARGEST_OF_SEA : 1) * ratio;
 }
 
 /// Appends one warning; counts it even where the text has no room left.
@@ -434,12 +471,14 @@ int waves_warnings(const Scene *scene, char *text, int size)
     const WaveTarget *sea = &scene->waves.initial;
     double depth = basin_depth(scene), length = wave_length(scene, sea->period);
     double breaking = wave_breaking_height(2 * PI / length, depth);
-    if (sea->height > 0.8 * breaking) {
+    double largest = sea->height * (scene->waves.kind == WAVES_IRREGULAR ? LARGEST_OF_SEA : 1);
+    const char *which =
+        scene->waves.kind == WAVES_IRREGULAR ? "largest of 1000 waves, 1.86 Hs =" : "wave height";
+    if (largest > 0.8 * breaking) {
         snprintf(line, sizeof line,
-                 "wave height %.3g m %s: %.0f %% of the breaking height 0.142 L tanh(kd) = %.3g m "
-                 "(Miche)",
-                 sea->height, sea->height > breaking ? "breaks" : "is near breaking",
-                 100 * sea->height / breaking, breaking);
+                 "%s %.3g m %s: %.0f %% of the breaking height 0.142 L tanh(kd) = %.3g m (Miche)",
+                 which, largest, largest > breaking ? "breaks" : "is near breaking",
+                 100 * largest / breaking, breaking);
         warn(text, size, &count, line);
     }
     double resolution = sea->height / scene->fluid.spacing;
@@ -452,7 +491,7 @@ int waves_warnings(const Scene *scene, char *text, int size)
     double ursell = sea->height * length * length / (depth * depth * depth);
     bool stokes = scene->waves.theory == WAVE_THEORY_STOKES2 ||
                   scene->waves.theory == WAVE_THEORY_STOKES5 || sea->height > breaking;
-    if (ursell > 26 && stokes) {
+    if (ursell > 26 && stokes && scene->waves.kind == WAVES_REGULAR) {
         snprintf(line, sizeof line,
                  "water is too shallow for Stokes' waves (Ursell number H L^2/d^3 = %.3g > 26)",
                  ursell);

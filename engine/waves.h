@@ -1,4 +1,4 @@
-/// Regular waves that may be changed while they run: what the ring, the relaxation zone, the hot
+/// Waves that may be changed while they run: what the ring, the relaxation zone, the hot
 /// start and the lines ask of the incident wave. Pure formulas are in physics/wave_theory.h.
 #ifndef FAIRLEAD_WAVES_H
 #define FAIRLEAD_WAVES_H
@@ -36,7 +36,10 @@ typedef struct WaveInterior {
     double width;          ///< [m]
 } WaveInterior;
 
-/// Everything about the waves that changes; plain data, copied by checkpoints.
+struct Sea;
+
+/// Everything about the waves that changes; plain data, copied by checkpoints (of a sea this holds
+/// what its layers are; their components follow from it: waves_refresh).
 ///
 /// A live change lays a new train over the present mixture M: (1 - b) M + b new, while M goes on
 /// with whatever change it was in. So weights are never negative and always sum to one — the water
@@ -56,6 +59,8 @@ typedef struct WaveState {
     bool has_queued;                   ///< `queued` waits for its turn
     WaveTarget queued;
     WaveInterior interior;
+    int piston_order;
+    struct Sea *sea; ///< components; NULL for regular waves; borrowed
 } WaveState;
 
 /// k of omega^2 = g k tanh(k d) [1/m] (Airy); relative error below 1e-12.
@@ -64,12 +69,22 @@ double wave_number_airy(double angular_frequency, double depth, double gravity);
 /// Trains at t = 0 (hot start: full height at once; ramp: grows over ramp_time).
 WaveState waves_create(const Scene *scene);
 
+/// Give irregular or focused waves their components; nothing happens with others.
+bool waves_take_sea(WaveState *waves, const Scene *scene, Arena *arena, Error *error);
+
+/// After layers were put back from a copy.
+void waves_refresh(const WaveState *waves);
+
 /// Ask for another sea; phases are matched at the basin's centre. The caller has checked the
 /// limits.
 void waves_command(WaveState *waves, const Scene *scene, const WaveTarget *target, double time);
 
 /// Drop what is covered and start what is queued; call once per step.
 void waves_update(WaveState *waves, const Scene *scene, double time);
+
+/// Weights of all layers, w_i = b_i prod_{j > i} (1 - b_j), with time derivatives.
+/// @param weights  filled, [layer_count]
+void waves_layer_weights(const WaveState *waves, double time, WaveStep *weights);
 
 /// Weight of the newest train at `time` and of all before it (rest included); they sum to one.
 void waves_weights(const WaveState *waves, double time, double *from, double *to);

@@ -3,6 +3,8 @@
 /// at three times the cost. Harmonics are the outer loop, so that the inner ones are plain.
 #include "waves.h"
 
+#include "sea.h"
+
 #include <string.h>
 
 /// Particles are worked on in blocks that stay in the first-level cache.
@@ -70,6 +72,10 @@ static void place_block_move(PlaceBlock *RESTRICT b, const WaveTerms *w)
 void waves_ring_places(const WaveState *waves, double time, int count, const Vec3 *mean,
                        Vec3 *place)
 {
+    if (waves->sea) {
+        sea_ring_places(waves, time, count, mean, place);
+        return;
+    }
     WaveTerms terms[WAVE_LAYERS_MAX];
     int term_count = waves_terms(waves, time, terms);
     for (int begin = 0; begin < count; begin += BLOCK) {
@@ -222,6 +228,10 @@ static void zone_block_velocity(ZoneBlock *b, const WaveTerms *w, int layer)
 void waves_zone_batch(const WaveState *waves, double time, int count, const float *x,
                       const float *y, const float *z, float *u, float *v, float *w)
 {
+    if (waves->sea) {
+        sea_zone_batch(waves, time, count, x, y, z, u, v, w);
+        return;
+    }
     WaveTerms terms[WAVE_LAYERS_MAX];
     int term_count = waves_terms(waves, time, terms);
     for (int begin = 0; begin < count; begin += BLOCK) {

@@ -93,13 +93,16 @@ static void print_line(const LineScene *line, const LinePlan *plan)
            s->fairlead_tension, s->anchor_tension, s->horizontal_force);
 }
 
+static const char *const WAVE_KINDS[] = {"none", "regular", "irregular (significant height)",
+                                         "focused (twice the crest)"};
+
 static void print_text(const Scene *scene, const Plan *plan, const char *prediction)
 {
     const WaveTarget *wave = &scene->waves.initial;
     printf("Case %s: %s (%016llx)\n", scene->name, scene->title, (unsigned long long)scene->hash);
     if (scene->waves.kind != WAVES_NONE)
-        printf("Waves                 height %.4g m, period %.4g s, heading %.4g deg\n",
-               wave->height, wave->period, degrees(wave->heading));
+        printf("Waves                 %s, height %.4g m, period %.4g s, heading %.4g deg\n",
+               WAVE_KINDS[scene->waves.kind], wave->height, wave->period, degrees(wave->heading));
     print_numerics(scene, plan);
     print_effects(plan, true);
     print_effects(plan, false);

@@ -74,10 +74,12 @@ typedef struct RelaxationZone {
     double side_min[2],
         side_max[2];     ///< x, y of the sides from which distance counts [m]; +-1e30 = none
     ZoneVelocity target; ///< NULL = water at rest (a beach)
+    int every;           ///< a row of particles is drawn at each so manieth step, for as long
 } RelaxationZone;
 
 typedef struct Advance {
     double time, dt;         ///< at the beginning of the step [s]
+    int64_t step;            ///< its number
     const BodyPose *poses;   ///< at the end of the step [body_count]
     const void *waves;       ///< context of the calls below
     MovePoints ring, piston; ///< NULL when not in the plan

@@ -361,13 +361,15 @@ static double kick_row(Backend *b, int row, const Advance *advance)
     ParticleSet *f = &b->fluid;
     float dt = (float)advance->dt;
     double zone = 0;
+    const int every = advance->zone.every;
+    bool relaxed = advance->zone.width > 0 && (row + advance->step) % every == 0;
     int row_end = f->row_begin[row + 1] * CLUSTER, end;
     for (int begin = f->row_begin[row] * CLUSTER; begin < row_end; begin = end) {
         end = begin + BLOCK < row_end ? begin + BLOCK : row_end;
         block_kick(b, f, begin, end, dt);
-        if (advance->zone.width > 0) {
+        if (relaxed) {
             double start = cpu_clock();
-            block_relax(b, f, begin, end, advance, dt);
+            block_relax(b, f, begin, end, advance, (float)every * dt);
             zone += cpu_clock() - start;
         }
         block_drift(b, f, begin, end, 0.5f * dt);
