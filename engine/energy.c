@@ -18,8 +18,7 @@ EnergyLevels energy_levels(const Scene *scene, const State *state)
     EnergyLevels levels = {fluid.kinetic, fluid.potential, fluid.compressible, 0, 0};
     for (int b = 0; b < scene->body_count; b++)
         levels.bodies += body_energy(&state->bodies[b], scene->fluid.gravity);
-    for (int l = 0; l < scene->line_count; l++)
-        levels.lines += line_energy(&state->lines[l]);
+    levels.lines = mooring_energy(&state->mooring);
     return levels;
 }
 

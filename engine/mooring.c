@@ -56,7 +56,7 @@ static double touchdown_length(const Line *line)
 }
 
 /// Tension, touchdown and water of the state as it stands; used after the start.
-static void line_settle(Line *line, const WaterField *water)
+void line_settle(Line *line, const WaterField *water)
 {
     LineWork *work = line->workspace;
     int last = line->node_count - 1;
@@ -79,35 +79,48 @@ static void line_settle(Line *line, const WaterField *water)
     line->touchdown = touchdown_length(line);
 }
 
-bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const WaterField *water,
-                 const char *where, Arena *arena, Line *line, LineStatics *statics, Error *error)
+bool line_take(const LineScene *scene, const WaterField *water, const int point[2],
+               const char *where, Arena *arena, Line *line, Error *error)
 {
     int n = scene->segments + 1;
     memset(line, 0, sizeof *line);
     line->scene = scene;
     line->node_count = n;
     line->stepper = LINE_STEPPER_BDF2;
-    line->position = arena_take(arena, (size_t)n, sizeof(Vec3), where, error);
-    line->velocity = arena_take(arena, (size_t)n, sizeof(Vec3), where, error);
+    line->parted_last = -1;
     LineWork *work = arena_take(arena, 1, sizeof *work, where, error);
-    if (!line->position || !line->velocity || !work) return false;
+    TRY(line->position = arena_take(arena, (size_t)n, sizeof(Vec3), where, error));
+    TRY(line->velocity = arena_take(arena, (size_t)n, sizeof(Vec3), where, error));
     TRY(take_doubles(arena, &line->tension, n, where, error));
+    if (!work) return false;
     TRY(take_workspace(arena, work, n, where, error));
-    LineStatics unused;
-    TRY(line_statics(scene, anchor, fairlead, water, where, line->position,
-                     statics ? statics : &unused, error));
-
-    line->workspace = work;
-    TRY(line_bdf2_create(line, arena, where, error));
     TRY(makeup_create(scene, water, where, arena, &work->makeup, error));
+    line->workspace = work;
+    work->point[0] = point[0];
+    work->point[1] = point[1];
     work->node_count = n;
+    line->parted = work->makeup.parted;
+    line->length = makeup_arc(&work->makeup, n - 1);
     line->step_limit = work->makeup.step_limit;
     line->sound_speed = work->makeup.sound_speed;
-    for (int i = 0; i < n; i++) {
-        bool end = i == 0 || i == n - 1;
-        work->share[i] = end ? 0.5 : 1;
-        work->bed_share[i] = end ? 0 : 1;
+    for (int i = 0; i < n; i++)
+        work->share[i] = work->bed_share[i] = 1;
+    for (int side = 0; side < 2; side++) {
+        int end = side ? n - 1 : 0;
+        work->share[end] = 0.5;
+        work->bed_share[end] = point[side] < 0 ? 0 : 0.5; // whoever holds an end carries it
     }
+    return line_bdf2_create(line, arena, where, error);
+}
+
+bool line_create(const LineScene *scene, Vec3 anchor, Vec3 fairlead, const WaterField *water,
+                 const char *where, Arena *arena, Line *line, LineStatics *statics, Error *error)
+{
+    const int held[2] = {-1, -1};
+    LineStatics unused;
+    TRY(line_take(scene, water, held, where, arena, line, error));
+    TRY(line_statics(scene, anchor, fairlead, water, where, line->position,
+                     statics ? statics : &unused, error));
     line_settle(line, water);
     return true;
 }
@@ -130,11 +143,12 @@ Vec3 end_path_velocity(const EndPath *path, double duration, double fraction)
     return vec3_mad(v, path->velocity[1], 3 * s2 - 2 * s);
 }
 
-void line_hold_ends(LineNodes *nodes, int last, const LineSpan *span, double fraction)
+void line_hold_ends(const LineWork *work, LineNodes *nodes, const LineSpan *span, double fraction)
 {
     const EndPath *paths[2] = {span->anchor, span->fairlead};
-    int ends[2] = {0, last};
+    int ends[2] = {0, work->node_count - 1};
     for (int k = 0; k < 2; k++) {
+        if (work->point[k] >= 0) continue;
         Vec3 p = end_path_position(paths[k], span->duration, fraction);
         Vec3 v = end_path_velocity(paths[k], span->duration, fraction);
         nodes->x[ends[k]] = p.x;
@@ -187,29 +201,37 @@ static void sample_water(Line *line, const WaterField *water, double time, doubl
     }
 }
 
-Vec3 line_end_direction(const LineWork *work, const Vec3 *x, int node, int inner, double *wet)
+SpecialNode line_special_node(const LineWork *work, const Vec3 *x, int node)
 {
-    const double *elevation = work->water_now[6];
-    Vec3 d = vec3_sub(x[inner], x[node]);
-    double size = vec3_norm(d);
-    *wet = line_wet_fraction(elevation[node] - x[node].z, elevation[inner] - x[inner].z,
-                             work->makeup.segment[node < inner ? node : inner]->radius);
-    return vec3_scale(d, size > 0 ? 1 / size : 0);
+    Vec3 place[3];
+    double elevation[3];
+    for (int k = 0; k < 3; k++) {
+        int at = node - 1 + k < 0 || node - 1 + k >= work->node_count ? node : node - 1 + k;
+        place[k] = x[at];
+        elevation[k] = work->water_now[6][at];
+    }
+    return makeup_special_node(&work->makeup, node, place, elevation);
+}
+
+Vec3 line_end_shear(const LineWork *work, const Vec3 *x, int side)
+{
+    int i = side ? work->node_count - 2 : 1;
+    if (!work->makeup.bends || work->node_count < 3) return vec3(0, 0, 0);
+    Vec3 force[3];
+    Bend bend = makeup_bend(&work->makeup, i, vec3_sub(x[i], x[i - 1]), vec3_sub(x[i + 1], x[i]));
+    bend_forces(&bend, force);
+    return force[side ? 2 : 0];
 }
 
 /// The line's pull on what holds an end: mean force on its half segment less what that half
 /// segment's own (and added) mass takes up.
-static Vec3 end_pull(const Line *line, int node, int inner, Vec3 impulse, const EndPath *path,
-                     double duration)
+static Vec3 end_pull(const Line *line, int side, Vec3 gained, double duration)
 {
     const LineWork *work = line->workspace;
-    double wet;
-    Vec3 q = line_end_direction(work, line->position, node, inner, &wet);
-    Vec3 gained = vec3_sub(path->velocity[1], path->velocity[0]);
-    const LineConstants *c = work->makeup.node[node];
-    Vec3 kept =
-        line_inertia(line_mass_normal(c, 1, wet), line_mass_tangential(c, 1, wet), q, gained);
-    return vec3_scale(vec3_sub(impulse, kept), 1 / duration);
+    SpecialNode end = line_special_node(work, line->position, side ? line->node_count - 1 : 0);
+    Vec3 kept = line_inertia(line_mass_normal(&end.sum, 1, 1), line_mass_tangential(&end.sum, 1, 1),
+                             end.q, gained);
+    return vec3_scale(vec3_sub(work->end_force[side], kept), 1 / duration);
 }
 
 static void line_load(Line *line)
@@ -240,50 +262,83 @@ static void line_store(Line *line)
         line->largest_tension = maxd(line->largest_tension, work->peak[i]);
 }
 
-/// The explicit step works on one array per component and leaves no history. @return sick node or
-/// -1
-static int advance_rk2(Line *line, const LineSpan *span, double *sick_time)
+/// The explicit step works on one array per component and leaves no history.
+static bool advance_rk2(LineNet *net, const LineSpan *spans, LineSickness *sick)
 {
-    LineWork *work = line->workspace;
-    line_load(line);
-    line_hold_ends(&work->now, line->node_count - 1, span, 0);
-    memset(work->peak, 0, (size_t)(line->node_count + 1) * sizeof(double));
-    int sick = line_step_rk2(line, span, sick_time);
-    line_store(line);
-    line_bdf2_forget(line);
-    return sick;
+    for (int l = 0; l < net->line_count; l++) {
+        LineWork *work = net->lines[l]->workspace;
+        line_load(net->lines[l]);
+        line_hold_ends(work, &work->now, &spans[l], 0);
+        memset(work->peak, 0, (size_t)(work->node_count + 1) * sizeof(double));
+    }
+    bool good = net_step_rk2(net, spans, sick);
+    for (int l = 0; l < net->line_count; l++) {
+        line_store(net->lines[l]);
+        line_bdf2_forget(net->lines[l]);
+    }
+    return good;
 }
 
-static bool report_sickness(const Line *line, int sick, double time, Error *error)
+static bool report_sickness(const LineSickness *sick, Error *error)
 {
-    Vec3 x = line->position[sick], v = line->velocity[sick];
+    const Line *line = sick->line;
+    Vec3 x = line->position[sick->node], v = line->velocity[sick->node];
     bool explicit_step = line->stepper == LINE_STEPPER_RK2;
     return error_set(error, ERROR_PHYSICS,
                      "line %s: node %d at t = %.6g s: position (%.4g, %.4g, %.4g) m, velocity "
                      "(%.4g, %.4g, %.4g) m/s; accepted: %s, %.4g m/s (sub-step limit %.3g s)",
-                     line->scene->name, sick, time, x.x, x.y, x.z, v.x, v.y, v.z,
+                     line->scene->name, sick->node, sick->time, x.x, x.y, x.z, v.x, v.y, v.z,
                      explicit_step ? "finite and slower than sound in the line"
                                    : "an implicit step that has a solution; sound in the line",
                      line->sound_speed, line->step_limit);
 }
 
+bool net_advance(LineNet *net, const WaterField *water, const LineSpan *spans, Error *error)
+{
+    double time = spans[0].time, duration = spans[0].duration;
+    ASSERT(duration > 0);
+    for (int l = 0; l < net->line_count; l++) {
+        Line *line = net->lines[l];
+        LineWork *work = line->workspace;
+        sample_water(line, water, time, duration);
+        for (int side = 0; side < 2; side++) {
+            const EndPath *path = side ? spans[l].fairlead : spans[l].anchor;
+            bool free = work->point[side] >= 0;
+            work->end_velocity[side] =
+                free ? line->velocity[side ? line->node_count - 1 : 0] : path->velocity[0];
+            work->end_force[side] = vec3(0, 0, 0);
+        }
+    }
+    LineSickness sick;
+    bool good = net->lines[0]->stepper == LINE_STEPPER_RK2 ? advance_rk2(net, spans, &sick)
+                                                           : net_step_bdf2(net, spans, &sick);
+    if (!good) return report_sickness(&sick, error);
+    for (int l = 0; l < net->line_count; l++) {
+        Line *line = net->lines[l];
+        const LineWork *work = line->workspace;
+        int last = line->node_count - 1;
+        line->touchdown = touchdown_length(line);
+        line->anchor_force =
+            end_pull(line, 0, vec3_sub(line->velocity[0], work->end_velocity[0]), duration);
+        line->fairlead_force =
+            end_pull(line, 1, vec3_sub(line->velocity[last], work->end_velocity[1]), duration);
+    }
+    return true;
+}
+
 bool line_advance(Line *line, const WaterField *water, double time, double duration,
                   const EndPath *anchor, const EndPath *fairlead, Error *error)
 {
-    ASSERT(duration > 0);
-    LineWork *work = line->workspace;
     LineSpan span = {time, duration, anchor, fairlead};
-    int last = line->node_count - 1;
-    sample_water(line, water, time, duration);
-    work->end_force[0] = work->end_force[1] = vec3(0, 0, 0);
-    double sick_time = time;
-    int sick = line->stepper == LINE_STEPPER_RK2 ? advance_rk2(line, &span, &sick_time)
-                                                 : line_step_bdf2(line, &span, &sick_time);
-    if (sick >= 0) return report_sickness(line, sick, sick_time, error);
-    line->touchdown = touchdown_length(line);
-    line->anchor_force = end_pull(line, 0, 1, work->end_force[0], anchor, duration);
-    line->fairlead_force = end_pull(line, last, last - 1, work->end_force[1], fairlead, duration);
-    return true;
+    Chain *chain = line_bdf2_chain(line);
+    Vec3 impulse[1][2];
+    LineNet net;
+    memset(&net, 0, sizeof net);
+    net.line_count = 1;
+    net.lines = &line;
+    net.chains = &chain;
+    net.impulse = impulse;
+    return net_advance(&net, water, &span, error);
 }
 
 double line_energy(const Line *line)
@@ -298,45 +353,84 @@ double line_energy(const Line *line)
         c = makeup->segment[n - 1];
         double stretch = vec3_norm(vec3_sub(line->position[n], line->position[n - 1])) - c->length;
         if (stretch > 0) energy += 0.5 * c->stiffness * stretch * stretch;
+        if (!makeup->bends || n < 2) continue;
+        Bend bend =
+            makeup_bend(makeup, n - 1, vec3_sub(line->position[n - 1], line->position[n - 2]),
+                        vec3_sub(line->position[n], line->position[n - 1]));
+        energy += bend.stiffness * (1 - vec3_dot(bend.before, bend.after));
     }
     return energy;
 }
 
-/// A saved line: positions, velocities, tensions, nine numbers, history of the implicit stepper.
+/// What a saved line holds besides its arrays.
+typedef struct LineRest {
+    Vec3 fairlead_force, anchor_force;
+    double largest_tension, touchdown, substeps;
+    double parted_count, parted_last, parted_time;
+    double fairlead_length;
+    double winch[5], turning;
+} LineRest;
+
+/// A saved line: positions, velocities, tensions, what parted, rest, history of the implicit
+/// stepper.
 size_t line_state_size(const Line *line)
 {
     const LineWork *work = line->workspace;
-    return (size_t)line->node_count * 7 + 9 + work->history_size;
+    return (size_t)line->node_count * 8 + sizeof(LineRest) / sizeof(double) + work->history_size;
 }
 
 void line_state_save(const Line *line, double *to)
 {
     const LineWork *work = line->workspace;
+    const Winch *winch = &work->winch;
     size_t n = (size_t)line->node_count;
+    LineRest rest = {line->fairlead_force,
+                     line->anchor_force,
+                     line->largest_tension,
+                     line->touchdown,
+                     (double)line->substeps,
+                     line->parted_count,
+                     line->parted_last,
+                     line->parted_time,
+                     work->makeup.fairlead_length,
+                     {winch->from, winch->rate, winch->to, winch->begin, winch->duration},
+                     winch->turning};
     memcpy(to, line->position, n * sizeof(Vec3));
     memcpy(to + 3 * n, line->velocity, n * sizeof(Vec3));
     memcpy(to + 6 * n, line->tension, n * sizeof(double));
-    double *rest = to + 7 * n;
-    memcpy(rest, &line->fairlead_force, sizeof(Vec3));
-    memcpy(rest + 3, &line->anchor_force, sizeof(Vec3));
-    rest[6] = line->largest_tension;
-    rest[7] = line->touchdown;
-    rest[8] = (double)line->substeps;
-    if (work->history_size) memcpy(rest + 9, work->history, work->history_size * sizeof(double));
+    for (size_t i = 0; i < n; i++)
+        to[7 * n + i] = work->makeup.parted[i];
+    memcpy(to + 8 * n, &rest, sizeof rest);
+    memcpy(to + 8 * n + sizeof rest / sizeof(double), work->history,
+           work->history_size * sizeof(double));
 }
 
 void line_state_restore(Line *line, const double *from)
 {
     LineWork *work = line->workspace;
     size_t n = (size_t)line->node_count;
+    LineRest rest;
     memcpy(line->position, from, n * sizeof(Vec3));
     memcpy(line->velocity, from + 3 * n, n * sizeof(Vec3));
     memcpy(line->tension, from + 6 * n, n * sizeof(double));
-    const double *rest = from + 7 * n;
-    memcpy(&line->fairlead_force, rest, sizeof(Vec3));
-    memcpy(&line->anchor_force, rest + 3, sizeof(Vec3));
-    line->largest_tension = rest[6];
-    line->touchdown = rest[7];
-    line->substeps = (long)rest[8];
-    if (work->history_size) memcpy(work->history, rest + 9, work->history_size * sizeof(double));
+    for (size_t i = 0; i < n; i++)
+        work->makeup.parted[i] = from[7 * n + i] != 0;
+    memcpy(&rest, from + 8 * n, sizeof rest);
+    memcpy(work->history, from + 8 * n + sizeof rest / sizeof(double),
+           work->history_size * sizeof(double));
+    line->fairlead_force = rest.fairlead_force;
+    line->anchor_force = rest.anchor_force;
+    line->largest_tension = rest.largest_tension;
+    line->touchdown = rest.touchdown;
+    line->substeps = (long)rest.substeps;
+    line->parted_count = (int)rest.parted_count;
+    line->parted_last = (int)rest.parted_last;
+    line->parted_time = rest.parted_time;
+    Winch winch = {rest.winch[0], rest.winch[1], rest.winch[2],
+                   rest.winch[3], rest.winch[4], rest.turning != 0};
+    work->winch = winch;
+    work->makeup.fairlead_length = rest.fairlead_length;
+    makeup_update(&work->makeup);
+    line->step_limit = work->makeup.step_limit;
+    line->length = makeup_arc(&work->makeup, work->makeup.segments);
 }

@@ -44,6 +44,11 @@ typedef struct Line {
     double sound_speed;     ///< in its stiffest piece, sqrt(EA/w) [m/s]
     long substeps;          ///< taken so far
     LineStepper stepper;    ///< set by line_create; may be changed between steps
+    const bool *parted;     ///< [segments]
+    int parted_count;       ///< segments that carry nothing any more
+    int parted_last;        ///< the last to part, -1 = none
+    double parted_time;     ///< when it did [s]
+    double length;          ///< unstretched, of the whole line now [m]
     void *workspace;        ///< the stepper's own arrays
 } Line;
 
@@ -80,8 +85,50 @@ typedef struct EndPath {
 bool line_advance(Line *line, const WaterField *water, double time, double duration,
                   const EndPath *anchor, const EndPath *fairlead, Error *error);
 
+/// A place where lines meet. A fixed one is only a place; a free one moves with its lines.
+typedef struct MooringPoint {
+    const PointScene *scene;
+    Vec3 position, velocity; ///< of a free point [m], [m/s]
+    void *workspace;         ///< NULL when fixed
+} MooringPoint;
+
+/// All lines of a scene with the points that join them.
+typedef struct Mooring {
+    int line_count, point_count, net_count;
+    Line *lines;          ///< [line_count]
+    MooringPoint *points; ///< [point_count]
+    void *nets;           ///< lines that move together, by free points [net_count]
+} Mooring;
+
+/// Ends of a line at t = 0: anchor, fairlead [m]; not looked at where a free point holds the line.
+typedef struct LineEnds {
+    Vec3 place[2];
+} LineEnds;
+
+/// Arrays and static start of all lines and free points of a scene.
+/// @param ends     [scene->line_count]
+/// @param statics  [scene->line_count], may be NULL
+/// @return false with ERROR_INPUT naming the line ("lines[2]") or point
+bool mooring_create(const Scene *scene, const LineEnds *ends, const WaterField *water, Arena *arena,
+                    Mooring *mooring, LineStatics *statics, Error *error);
+
+/// line_advance for all lines; `paths` is [line_count][2], anchor and fairlead.
+bool mooring_advance(Mooring *mooring, const WaterField *water, double time, double duration,
+                     const EndPath (*paths)[2], Error *error);
+
+/// Let a segment part now; both halves go on. Does nothing to one that has parted.
+void mooring_break(Line *line, int segment);
+
+/// Let the winch at the fairlead bring the section there to such a length that the whole line is
+/// `length` long unstretched, smoothly at up to `speed` [m/s], from `time` on. The section's
+/// segments grow or shrink alike, down to a tenth of their first length.
+void mooring_set_length(Line *line, double length, double speed, double time);
+
 /// Kinetic, elastic and potential energy of a line, as if all of it were under water [J].
 double line_energy(const Line *line);
+
+/// The same of all lines and free points [J].
+double mooring_energy(const Mooring *mooring);
 
 /// Doubles needed to save or restore a line's state, and both directions.
 size_t line_state_size(const Line *line);

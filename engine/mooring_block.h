@@ -90,4 +90,16 @@ FN void block_solve(int first, int last, Sym3 *diagonal, const Coupling *links, 
     }
 }
 
+/// The same for another right side, once `diagonal` holds the inverse pivots.
+FN void block_solve_again(int first, int last, const Sym3 *diagonal, const Coupling *links, Vec3 *x)
+{
+    for (int i = first + 1; i < last; i++)
+        x[i] =
+            vec3_add(x[i], coupling_apply(&links[i - 1], sym3_apply(&diagonal[i - 1], x[i - 1])));
+    for (int i = last - 1; i >= first; i--) {
+        if (i + 1 < last) x[i] = vec3_add(x[i], coupling_apply(&links[i], x[i + 1]));
+        x[i] = sym3_apply(&diagonal[i], x[i]);
+    }
+}
+
 #endif

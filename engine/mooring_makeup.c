@@ -12,6 +12,9 @@ static const double FRICTION_SPEED = 1e-3;
 static const double STEP_SAFETY = 0.9;
 /// A slack line that snaps taut over and over stays bounded below this many l/c (measured: 0.52).
 static const double SLACK_LIMIT = 0.5;
+/// A bent segment turns as if it were at least this long, in unstretched lengths: in a heap, where
+/// segments shrink to nothing, their directions mean little.
+static const double SHORTEST = 0.5;
 
 int line_section_count(const LineScene *scene)
 {
@@ -72,6 +75,10 @@ static double explicit_limit(const LineConstants *c)
         double omega = sqrt(c->bed_stiffness / c->mass);
         double bed_zeta = c->bed_damping / (2 * c->mass * omega);
         limit = mind(limit, line_midpoint_limit(bed_zeta) / omega);
+    }
+    if (c->bending > 0) { // the shortest wave of a beam of point masses, not damped by itself
+        double omega = 4 * sqrt(c->bending / (c->mass * c->length * c->length * c->length));
+        limit = mind(limit, line_midpoint_limit(0) / omega);
     }
     return STEP_SAFETY * limit;
 }
@@ -185,6 +192,21 @@ SpecialNode makeup_special_node(const LineMakeup *makeup, int i, const Vec3 plac
     double size = vec3_norm(node.q);
     node.q = vec3_scale(node.q, size > 1e-12 * node.sum.length ? 1 / size : 0);
     return node;
+}
+
+Bend makeup_bend(const LineMakeup *makeup, int i, Vec3 before, Vec3 after)
+{
+    const LineConstants *below = makeup->segment[i - 1], *above = makeup->segment[i];
+    double s0 = vec3_norm(before), s1 = vec3_norm(after);
+    Bend bend;
+    memset(&bend, 0, sizeof bend);
+    if (makeup->parted[i - 1] || makeup->parted[i] || s0 == 0 || s1 == 0) return bend;
+    bend.stiffness = (below->bending + above->bending) / (below->length + above->length);
+    bend.before = vec3_scale(before, 1 / s0);
+    bend.after = vec3_scale(after, 1 / s1);
+    bend.below = 1 / maxd(s0, SHORTEST * below->length);
+    bend.above = 1 / maxd(s1, SHORTEST * above->length);
+    return bend;
 }
 
 double makeup_arc(const LineMakeup *makeup, int i)

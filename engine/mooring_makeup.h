@@ -4,6 +4,7 @@
 #define FAIRLEAD_MOORING_MAKEUP_H
 
 #include "mooring.h"
+#include "mooring_chain.h"
 #include "physics/line.h"
 
 /// Equal segments begin..end-1, one after the other.
@@ -53,6 +54,9 @@ void makeup_update(LineMakeup *makeup);
 /// end are not looked at.
 SpecialNode makeup_special_node(const LineMakeup *makeup, int i, const Vec3 place[3],
                                 const double elevation[3]);
+
+/// Bending at inner node `i` between segment vectors `before` and `after`.
+Bend makeup_bend(const LineMakeup *makeup, int i, Vec3 before, Vec3 after);
 
 /// Unstretched length from the anchor to node `i` [m].
 double makeup_arc(const LineMakeup *makeup, int i);

@@ -88,8 +88,7 @@ WIDE static void run_node_forces(LineWork *work, const LineNodes *nodes, const L
     }
 }
 
-/// One special node (see mooring_makeup.h).
-static void special_node_forces(LineWork *work, const LineNodes *nodes, int i)
+static SpecialNode soa_special_node(const LineWork *work, const LineNodes *nodes, int i)
 {
     Vec3 place[3];
     double elevation[3];
@@ -98,7 +97,13 @@ static void special_node_forces(LineWork *work, const LineNodes *nodes, int i)
         place[k] = vec3(nodes->x[at], nodes->y[at], nodes->z[at]);
         elevation[k] = work->water_now[6][at];
     }
-    SpecialNode node = makeup_special_node(&work->makeup, i, place, elevation);
+    return makeup_special_node(&work->makeup, i, place, elevation);
+}
+
+/// One special node (see mooring_makeup.h).
+static void special_node_forces(LineWork *work, const LineNodes *nodes, int i)
+{
+    SpecialNode node = soa_special_node(work, nodes, i);
     const LineConstants *c = &node.sum;
     double *const *water = work->water_now;
     double u = nodes->u[i], v = nodes->v[i], w = nodes->w[i];
@@ -118,10 +123,31 @@ static void special_node_forces(LineWork *work, const LineNodes *nodes, int i)
     work->az[i] = a.z;
 }
 
+/// Bending makes a segment pull across itself too: forces f on the nodes before and after a bent
+/// node are shears f and -f of its segments.
+static void add_shear(LineWork *work)
+{
+    const double *dx = work->dx + 1, *dy = work->dy + 1, *dz = work->dz + 1;
+    double *px = work->px + 1, *py = work->py + 1, *pz = work->pz + 1;
+    for (int i = 1; i + 1 < work->node_count; i++) {
+        Bend bend = makeup_bend(&work->makeup, i, vec3(dx[i - 1], dy[i - 1], dz[i - 1]),
+                                vec3(dx[i], dy[i], dz[i]));
+        Vec3 force[3];
+        bend_forces(&bend, force);
+        px[i - 1] += force[0].x;
+        py[i - 1] += force[0].y;
+        pz[i - 1] += force[0].z;
+        px[i] -= force[2].x;
+        py[i] -= force[2].y;
+        pz[i] -= force[2].z;
+    }
+}
+
 void line_segments(LineWork *work, const LineNodes *nodes)
 {
     for (int r = 0; r < work->makeup.run_count; r++)
         run_segments(work, nodes, &work->makeup.runs[r]);
+    if (work->makeup.bends) add_shear(work);
 }
 
 void line_node_forces(LineWork *work, const LineNodes *nodes)
@@ -150,6 +176,56 @@ WIDE static void nodes_move(const LineWork *work, LineNodes *to, const LineNodes
     }
 }
 
+/// A line's node to accelerations and masses of the free point that holds it: gives its half
+/// segment's force and mass to the sums.
+static void gather_joint(const Line *line, int side, const LineNodes *nodes, Vec3 *force,
+                         Sym3 *mass)
+{
+    const LineWork *work = line->workspace;
+    int node = side ? work->node_count - 1 : 0;
+    SpecialNode end = soa_special_node(work, nodes, node);
+    double normal = line_mass_normal(&end.sum, 1, 1);
+    *force = vec3_add(*force, vec3(work->fx[node], work->fy[node], work->fz[node]));
+    sym3_add(mass, normal, line_mass_tangential(&end.sum, 1, 1) - normal, end.q);
+}
+
+/// Let the ends that meet at a free point move as one.
+static void move_point(const MooringPoint *point, bool middle)
+{
+    const PointWork *own = point->workspace;
+    const LineConstants *c = &own->constants;
+    const LineWork *first = own->lines[0]->workspace;
+    const LineNodes *nodes = middle ? &first->middle : &first->now;
+    int node = own->sides[0] ? first->node_count - 1 : 0;
+    double *const *water = first->water_now;
+    Vec3 v = vec3(nodes->u[node], nodes->v[node], nodes->w[node]), none = vec3(0, 0, 0);
+    double depth = water[6][node] - nodes->z[node];
+    double wet = line_wet_fraction(depth, depth, c->radius);
+    Vec3 stream = vec3(water[0][node], water[1][node], water[2][node]);
+    Vec3 force = line_drag(c, wet, none, vec3_sub(stream, v));
+    Vec3 swell = vec3(water[3][node], water[4][node], water[5][node]);
+    force = vec3_add(force, line_water_inertia(c, wet, none, swell));
+    double bed = line_bed_force(c, 1, nodes->z[node], v.z);
+    double rub = line_bed_friction(c, bed, hypot(v.x, v.y));
+    force = vec3_add(force, vec3(-rub * v.x, -rub * v.y, bed + c->buoyancy * wet - c->weight));
+    Sym3 mass = {0, 0, 0, 0, 0, 0};
+    sym3_add(&mass, line_mass_normal(c, 1, wet), 0, none);
+    for (int k = 0; k < own->joint_count; k++) {
+        const LineWork *work = own->lines[k]->workspace;
+        gather_joint(own->lines[k], own->sides[k], middle ? &work->middle : &work->now, &force,
+                     &mass);
+    }
+    Sym3 inverse = sym3_inverse(&mass);
+    Vec3 a = sym3_apply(&inverse, force);
+    for (int k = 0; k < own->joint_count; k++) {
+        const LineWork *work = own->lines[k]->workspace;
+        int end = own->sides[k] ? work->node_count - 1 : 0;
+        work->ax[end] = a.x;
+        work->ay[end] = a.y;
+        work->az[end] = a.z;
+    }
+}
+
 /// First node that is not finite or faster than sound in the line, -1 when there is none.
 static int nodes_sick(const LineNodes *nodes, int count, double speed_squared)
 {
@@ -162,40 +238,75 @@ static int nodes_sick(const LineNodes *nodes, int count, double speed_squared)
     return -1;
 }
 
-int line_step_rk2(Line *line, const LineSpan *span, double *sick_time)
+/// Forces and accelerations of all lines of a net in the water of an instant.
+static void net_forces(LineNet *net, bool middle, double fraction)
 {
-    LineWork *work = line->workspace;
-    LineNodes *now = &work->now, *middle = &work->middle;
-    int last = work->node_count - 1;
-    long count = (long)ceil(span->duration / line->step_limit - 1e-9);
-    count = count < 1 ? 1 : count;
-    double h = span->duration / (double)count;
-    double sound_squared = line->sound_speed * line->sound_speed;
-    for (long k = 0; k < count; k++) {
-        line_water_at(work, (double)k / (double)count);
-        line_segments(work, now);
-        line_node_forces(work, now);
-        nodes_move(work, middle, now, now, 0.5 * h);
+    for (int l = 0; l < net->line_count; l++) {
+        LineWork *work = net->lines[l]->workspace;
+        const LineNodes *nodes = middle ? &work->middle : &work->now;
+        line_water_at(work, fraction);
+        line_segments(work, nodes);
+        line_node_forces(work, nodes);
+    }
+    for (int p = 0; p < net->block.count; p++)
+        move_point(net->points[p], middle);
+}
 
-        line_hold_ends(middle, last, span, ((double)k + 0.5) / (double)count);
-        line_water_at(work, ((double)k + 0.5) / (double)count);
-        line_segments(work, middle);
-        line_node_forces(work, middle);
-        nodes_move(work, now, now, middle, h);
-        line_hold_ends(now, last, span, (double)(k + 1) / (double)count);
-
+static void net_substep(LineNet *net, const LineSpan *spans, long k, long count, double h)
+{
+    double begin = (double)k / (double)count, half = ((double)k + 0.5) / (double)count;
+    for (int l = 0; l < net->line_count; l++)
+        line_wind(net->lines[l], spans[l].time + half * spans[l].duration);
+    net_forces(net, false, begin);
+    for (int l = 0; l < net->line_count; l++) {
+        LineWork *work = net->lines[l]->workspace;
+        nodes_move(work, &work->middle, &work->now, &work->now, 0.5 * h);
+        line_hold_ends(work, &work->middle, &spans[l], half);
+    }
+    net_forces(net, true, half);
+    for (int l = 0; l < net->line_count; l++) {
+        LineWork *work = net->lines[l]->workspace;
+        int last = work->node_count - 1;
+        nodes_move(work, &work->now, &work->now, &work->middle, h);
+        line_hold_ends(work, &work->now, &spans[l], (double)(k + 1) / (double)count);
         work->end_force[0] =
             vec3_mad(work->end_force[0], vec3(work->fx[0], work->fy[0], work->fz[0]), h);
         work->end_force[1] =
             vec3_mad(work->end_force[1], vec3(work->fx[last], work->fy[last], work->fz[last]), h);
-        if (k % SICKNESS_INTERVAL == 0 || k == count - 1) {
-            int sick = nodes_sick(now, last + 1, sound_squared);
-            if (sick >= 0) {
-                *sick_time = span->time + h * (double)(k + 1);
-                return sick;
-            }
+    }
+}
+
+/// Sub-steps that keep all lines of a net below their limits.
+static long substep_count(const LineNet *net, double duration)
+{
+    double limit = INFINITY;
+    for (int l = 0; l < net->line_count; l++)
+        limit = mind(limit, net->lines[l]->step_limit);
+    long count = (long)ceil(duration / limit - 1e-9);
+    return count < 1 ? 1 : count;
+}
+
+bool net_step_rk2(LineNet *net, const LineSpan *spans, LineSickness *sick)
+{
+    long count = substep_count(net, spans[0].duration);
+    double h = spans[0].duration / (double)count;
+    for (long k = 0; k < count; k++) {
+        net_substep(net, spans, k, count, h);
+        net_part(net, spans[0].time + h * (double)(k + 1));
+        if (k % SICKNESS_INTERVAL != 0 && k != count - 1) continue;
+        for (int l = 0; l < net->line_count; l++) {
+            const Line *line = net->lines[l];
+            const LineWork *work = line->workspace;
+            int node =
+                nodes_sick(&work->now, work->node_count, line->sound_speed * line->sound_speed);
+            if (node < 0) continue;
+            sick->line = line;
+            sick->node = node;
+            sick->time = spans[0].time + h * (double)(k + 1);
+            return false;
         }
     }
-    line->substeps += count;
-    return -1;
+    for (int l = 0; l < net->line_count; l++)
+        net->lines[l]->substeps += count;
+    return true;
 }

@@ -240,6 +240,32 @@ static bool solve_catenary(const MeanLine *line, Vec3 anchor, Vec3 fairlead, dou
     return true;
 }
 
+/// The closed form for a line of one weight, or a straight spring.
+static bool first_shape(const MeanLine *mean, Vec3 anchor, Vec3 fairlead, double weight,
+                        const WaterField *water, const char *where, Vec3 *nodes,
+                        LineStatics *statics, Error *error)
+{
+    if (fabs(weight) * mean->length < WEIGHTLESS * mean->stiffness) {
+        straight(mean, anchor, fairlead, nodes, statics);
+        return true;
+    }
+    return solve_catenary(mean, anchor, fairlead, weight, water, where, nodes, statics, error);
+}
+
+void line_guess(const LineMakeup *makeup, Vec3 anchor, Vec3 fairlead, const WaterField *water,
+                Vec3 *nodes)
+{
+    MeanLine mean = mean_line(makeup);
+    LineStatics unused;
+    Error error;
+    memset(&unused, 0, sizeof unused);
+    unused.span = vec3_norm(vec3_sub(fairlead, anchor));
+    double weight = water->bed >= water->level ? mean.dry : mean.wet;
+    if (unused.span >= mean.length ||
+        !first_shape(&mean, anchor, fairlead, weight, water, "", nodes, &unused, &error))
+        straight(&mean, anchor, fairlead, nodes, &unused);
+}
+
 static bool check_line(const LineScene *line, Vec3 anchor, Vec3 fairlead, const char *where,
                        LineStatics *statics, Error *error)
 {
@@ -286,16 +312,13 @@ bool line_statics(const LineScene *line, Vec3 anchor, Vec3 fairlead, const Water
         MeanLine mean = mean_line(&makeup);
         double weight = water->bed >= water->level ? mean.dry : mean.wet;
         bool uniform = mean.uniform && weight_is_uniform(water, anchor, fairlead, mean.wet);
+        uniform = uniform && !makeup.bends;
         if (!nodes && !uniform)
             nodes = arena_take(&own, (size_t)line->segments + 1, sizeof(Vec3), where, error);
-        good = uniform || nodes;
-        if (good && fabs(weight) * mean.length < WEIGHTLESS * mean.stiffness)
-            straight(&mean, anchor, fairlead, nodes, statics);
-        else
-            good = good && solve_catenary(&mean, anchor, fairlead, weight, water, where, nodes,
-                                          statics, error);
-        if (good && nodes)
-            good = line_relax(line, water, where, nodes, uniform ? NULL : statics, error);
+        good = (uniform || nodes) &&
+               first_shape(&mean, anchor, fairlead, weight, water, where, nodes, statics, error);
+        RelaxLine relaxed = {&makeup, {-1, -1}, nodes, uniform ? NULL : statics};
+        if (good && nodes) good = lines_relax(&relaxed, 1, NULL, 0, water->level, where, error);
     }
     arena_destroy(&own);
     return good;

@@ -10,6 +10,7 @@
 #include "backend/backend.h"
 #include "body.h"
 #include "carve.h"
+#include "coupling.h"
 #include "effects.h"
 #include "fill.h"
 #include "waves.h"
@@ -127,14 +128,7 @@ static bool mesh_bodies(const Scene *scene, Plan *plan, Error *error)
     return true;
 }
 
-/// World place of an end at t = 0.
-static Vec3 end_place(const Scene *scene, const Plan *plan, const LineEnd *end)
-{
-    if (end->body < 0) return end->position;
-    Body body = body_create(&scene->bodies[end->body], &plan->bodies[end->body].geometry);
-    return body_point(&body, end->position);
-}
-
+/// Where the held ends are at t = 0, and what the lines do there.
 static bool hang_lines(const Scene *scene, Plan *plan, Error *error)
 {
     size_t count = (size_t)scene->line_count;
@@ -145,16 +139,26 @@ static bool hang_lines(const Scene *scene, Plan *plan, Error *error)
                         scene->fluid.density,
                         scene->fluid.gravity,
                         scene->domain.min.z};
+    Body bodies[SCENE_BODIES_MAX];
+    LineEnds ends[SCENE_LINES_MAX];
+    LineStatics statics[SCENE_LINES_MAX];
+    memset(statics, 0, sizeof statics);
+    for (int b = 0; b < scene->body_count; b++)
+        bodies[b] = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
     for (int l = 0; l < scene->line_count; l++) {
-        LinePlan *line = &plan->lines[l];
-        char where[32];
-        snprintf(where, sizeof where, "lines[%d]", l);
-        line->anchor = end_place(scene, plan, &scene->lines[l].anchor);
-        line->fairlead = end_place(scene, plan, &scene->lines[l].fairlead);
-        TRY(line_statics(&scene->lines[l], line->anchor, line->fairlead, &water, where, NULL,
-                         &line->statics, error));
+        Vec3 velocity;
+        coupling_end(scene, bodies, &scene->lines[l].anchor, &ends[l].place[0], &velocity);
+        coupling_end(scene, bodies, &scene->lines[l].fairlead, &ends[l].place[1], &velocity);
     }
-    return true;
+    Arena scratch = arena_create(0);
+    Mooring mooring;
+    bool good = mooring_create(scene, ends, &water, &scratch, &mooring, statics, error);
+    for (int l = 0; good && l < scene->line_count; l++) {
+        plan->lines[l].ends = ends[l];
+        plan->lines[l].statics = statics[l];
+    }
+    arena_destroy(&scratch);
+    return good;
 }
 
 static bool check_memory(const Scene *scene, const Plan *plan, Error *error)

@@ -51,7 +51,7 @@ typedef struct BodyPlan {
 } BodyPlan;
 
 typedef struct LinePlan {
-    Vec3 anchor, fairlead; ///< at t = 0, world [m]
+    LineEnds ends; ///< at t = 0, world
     LineStatics statics;
 } LinePlan;
 

@@ -104,7 +104,6 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
     TRY(state->loads = arena_take(&state->arena, bodies, sizeof(BodyLoad), "loads", error));
     TRY(state->poses = arena_take(&state->arena, bodies, sizeof(BodyPose), "poses", error));
     TRY(state->centres = arena_take(&state->arena, bodies, sizeof(Vec3), "centres", error));
-    TRY(state->lines = arena_take(&state->arena, lines, sizeof(Line), "lines", error));
     TRY(state->watches = arena_take(&state->arena, lines, sizeof(LineWatch), "lines", error));
     if (lines)
         TRY(state->events = arena_take(&state->arena, 1, sizeof(LineEvents), "lines", error));
@@ -113,14 +112,13 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
     for (int b = 0; b < scene->body_count; b++)
         state->bodies[b] = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
     WaterField water = step_water(scene, state);
-    for (int l = 0; l < scene->line_count; l++) {
-        LineStatics statics;
-        char where[32];
-        snprintf(where, sizeof where, "lines[%d]", l);
-        TRY(line_create(&scene->lines[l], plan->lines[l].anchor, plan->lines[l].fairlead, &water,
-                        where, &state->arena, &state->lines[l], &statics, error));
+    LineEnds ends[SCENE_LINES_MAX];
+    for (int l = 0; l < scene->line_count; l++)
+        ends[l] = plan->lines[l].ends;
+    TRY(mooring_create(scene, ends, &water, &state->arena, &state->mooring, NULL, error));
+    state->lines = state->mooring.lines;
+    for (int l = 0; l < scene->line_count; l++)
         state->watches[l] = line_watch_create(&state->lines[l], &water);
-    }
     return true;
 }
 

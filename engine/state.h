@@ -48,7 +48,8 @@ typedef struct State {
     double time_step; ///< in use now [s]
     WaveState waves;
     Body *bodies;        ///< [scene->body_count]
-    Line *lines;         ///< [scene->line_count]
+    Mooring mooring;     ///< lines and the points that join them
+    Line *lines;         ///< mooring.lines
     Slamming *slammings; ///< [scene->slamming_count]
     LineWatch *watches;  ///< [scene->line_count]
     LineEvents *events;  ///< of all lines; NULL without lines

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "contact.h"
+#include "coupling.h"
 #include "engine.h"
 #include "health.h"
 #include "piston.h"
@@ -53,32 +54,6 @@ WaterField step_water(const Scene *scene, const State *state)
     return water;
 }
 
-void step_line_end(const State *state, const LineEnd *end, Vec3 *position, Vec3 *velocity)
-{
-    *position = end->position;
-    *velocity = vec3(0, 0, 0);
-    if (end->body < 0) return;
-    *position = body_point(&state->bodies[end->body], end->position);
-    *velocity = body_point_velocity(&state->bodies[end->body], end->position);
-}
-
-static void collect_line_loads(const Scene *scene, State *state)
-{
-    for (int b = 0; b < scene->body_count; b++)
-        state->bodies[b].line_force = state->bodies[b].line_moment = vec3(0, 0, 0);
-    for (int l = 0; l < scene->line_count; l++) {
-        const LineEnd *ends[2] = {&scene->lines[l].anchor, &scene->lines[l].fairlead};
-        const Vec3 pulls[2] = {state->lines[l].anchor_force, state->lines[l].fairlead_force};
-        for (int e = 0; e < 2; e++) {
-            if (ends[e]->body < 0) continue;
-            Body *body = &state->bodies[ends[e]->body];
-            Vec3 arm = vec3_sub(body_point(body, ends[e]->position), body->position);
-            body->line_force = vec3_add(body->line_force, pulls[e]);
-            body->line_moment = vec3_add(body->line_moment, vec3_cross(arm, pulls[e]));
-        }
-    }
-}
-
 static void probe_slamming(const Scene *scene, const Plan *plan, State *state, double dt)
 {
     for (int i = 0; i < scene->slamming_count; i++) {
@@ -90,7 +65,7 @@ static void probe_slamming(const Scene *scene, const Plan *plan, State *state, d
 
 static void advance_bodies(const Scene *scene, const Plan *plan, State *state, double dt)
 {
-    collect_line_loads(scene, state);
+    coupling_collect_loads(scene, state->lines, state->bodies);
     for (int b = 0; b < scene->body_count; b++) {
         state->bodies[b].fluid_force = state->loads[b].force;
         state->bodies[b].fluid_moment = state->loads[b].moment;
@@ -119,29 +94,13 @@ static void advance_bodies(const Scene *scene, const Plan *plan, State *state, d
     state->host_seconds[EFFECT_BODY_MOTION] += step_clock() - lap;
 }
 
-typedef struct LinePaths {
-    EndPath anchor[SCENE_LINES_MAX], fairlead[SCENE_LINES_MAX];
-} LinePaths;
-
-static void note_line_ends(const Scene *scene, const State *state, int instant, LinePaths *paths)
-{
-    for (int l = 0; l < scene->line_count; l++) {
-        step_line_end(state, &scene->lines[l].anchor, &paths->anchor[l].position[instant],
-                      &paths->anchor[l].velocity[instant]);
-        step_line_end(state, &scene->lines[l].fairlead, &paths->fairlead[l].position[instant],
-                      &paths->fairlead[l].velocity[instant]);
-    }
-}
-
 static bool advance_lines(const Scene *scene, State *state, double dt, const LinePaths *paths,
                           Error *error)
 {
     WaterField water = step_water(scene, state);
-    for (int l = 0; l < scene->line_count; l++) {
-        TRY(line_advance(&state->lines[l], &water, state->time, dt, &paths->anchor[l],
-                         &paths->fairlead[l], error));
+    TRY(mooring_advance(&state->mooring, &water, state->time, dt, paths->end, error));
+    for (int l = 0; l < scene->line_count; l++)
         line_watch_step(&state->watches[l], &state->lines[l], l, state->time + dt, state->events);
-    }
     return true;
 }
 
@@ -210,11 +169,11 @@ static bool step_once(const Scene *scene, const Plan *plan, State *state, double
         state->centres[b] = state->bodies[b].position;
     TRY(state->backend->forces(state->particles, state->centres, state->loads, error));
 
-    if (plan->effects[EFFECT_LINES].active) note_line_ends(scene, state, 0, &paths);
+    if (plan->effects[EFFECT_LINES].active) coupling_note_ends(scene, state->bodies, 0, &paths);
     if (plan->effects[EFFECT_BODIES].active) advance_bodies(scene, plan, state, dt);
     if (plan->effects[EFFECT_LINES].active) {
         double lap = step_clock();
-        note_line_ends(scene, state, 1, &paths);
+        coupling_note_ends(scene, state->bodies, 1, &paths);
         TRY(advance_lines(scene, state, dt, &paths, error));
         state->host_seconds[EFFECT_LINES] += step_clock() - lap;
     }

@@ -10,9 +10,6 @@ WaterField step_water(const Scene *scene, const State *state);
 /// What the backend needs to advance by `dt` from the present time, with bodies where they are now.
 Advance step_orders(const Scene *scene, const Plan *plan, State *state, double dt);
 
-/// Place of a line's end now, and its velocity.
-void step_line_end(const State *state, const LineEnd *end, Vec3 *position, Vec3 *velocity);
-
 /// The wall clock by which effects are timed [s].
 double step_clock(void);
 
