@@ -1,6 +1,7 @@
 #include "command.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "physics/wave_theory.h"
 #include "waves.h"
@@ -9,7 +10,7 @@ static const double SLACK = 1e-9; ///< a limit met up to rounding (degrees to ra
 
 Command command_default(void)
 {
-    Command command = {NAN, NAN, NAN};
+    Command command = {NAN, NAN, NAN, "", NAN, CUT_NOWHERE};
     return command;
 }
 
@@ -65,4 +66,32 @@ bool command_check(const Scene *scene, const Command *command, const WaveTarget 
                          sea.height, waves->height_limits.min, most, sea.period);
     *target = sea;
     return true;
+}
+
+bool command_check_line(const Scene *scene, const Command *command, const LineOrder *orders,
+                        int *line, Error *error)
+{
+    *line = -1;
+    for (int l = 0; l < scene->line_count; l++)
+        if (!strcmp(scene->lines[l].name, command->line)) *line = l;
+    if (*line < 0)
+        return error_set(error, ERROR_INPUT,
+                         "line.name = \"%s\": must be one of this case's lines%s%s", command->line,
+                         scene->line_count ? ", as " : " (there is none)",
+                         scene->line_count ? scene->lines[0].name : "");
+    const LineScene *scene_line = &scene->lines[*line];
+    if (isnan(command->line_length) && command->line_cut == CUT_NOWHERE)
+        return error_set(error, ERROR_INPUT, "line: length_m or cut must be given");
+    if (orders[*line].cut != CUT_NOWHERE)
+        return error_set(error, ERROR_INPUT,
+                         "line.name = \"%s\": has been cut: must be a whole line", command->line);
+    if (isnan(command->line_length)) return true;
+    if (!(scene_line->winch.speed > 0))
+        return error_set(
+            error, ERROR_INPUT,
+            "line.length_m = %.9g: line %s has no winch: must be left as it is (%.9g m)",
+            command->line_length, command->line, scene_line->length);
+    double length;
+    return choose("line.length_m", command->line_length, scene_line->length,
+                  scene_line->winch.length, 1, "m", &length, error);
 }

@@ -32,7 +32,9 @@ void snapshot_destroy(Snapshot *snapshot);
 
 /// A line of journal.jsonl about the start, a command or a health event; `size` bytes at most.
 void journal_format_start(const Scene *scene, const Plan *plan, char *text, int size);
-void journal_format_command(double time, const WaveTarget *asked, char *text, int size);
+/// @param asked  the sea in force, for a command about the sea
+void journal_format_command(double time, const Command *command, const WaveTarget *asked,
+                            char *text, int size);
 void journal_format_health(double time, const char *message, char *text, int size);
 void journal_format_line(const Scene *scene, const LineEvent *event, char *text, int size);
 /// The same in a few words, for a label on a plot: "bow line snaps: 345 N".

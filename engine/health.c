@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "step.h"
+
 void health_checkpoint(const Scene *scene, State *state)
 {
     Checkpoint *c = &state->checkpoint;
@@ -24,6 +26,7 @@ void health_checkpoint(const Scene *scene, State *state)
     for (int l = 0; l < scene->line_count; l++)
         line_state_save(&state->lines[l], c->lines[l]);
     memcpy(c->watches, state->watches, (size_t)scene->line_count * sizeof(LineWatch));
+    memcpy(c->orders, state->orders, (size_t)scene->line_count * sizeof(LineOrder));
     state->backend->save(state->particles, c->particles);
 }
 
@@ -48,6 +51,11 @@ static void roll_back(const Scene *scene, State *state)
                      asked.heading != then->heading;
     if (scene->waves.kind != WAVES_NONE && commanded)
         waves_command(&state->waves, scene, &asked, state->time);
+    for (int l = 0; l < scene->line_count; l++) {
+        const LineOrder *order = &state->orders[l], *before = &c->orders[l];
+        bool wound = !isnan(order->length) && order->length != before->length;
+        if (wound || order->cut != before->cut) step_order_line(scene, state, l);
+    }
 }
 
 /// First violated limit as text; false when all is well.

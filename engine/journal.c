@@ -1,4 +1,5 @@
 /// Lines of journal.jsonl: one JSON object each, always complete however short the room.
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -124,11 +125,28 @@ void journal_format_start(const Scene *scene, const Plan *plan, char *text, int 
     put(&writer, "}");
 }
 
-void journal_format_command(double time, const WaveTarget *asked, char *text, int size)
+static void put_order(Writer *writer, const Command *command)
+{
+    static const char *const places[] = {"anchor", "middle", "fairlead"};
+    put(writer, "\"line\":{\"name\":");
+    put_text(writer, command->line);
+    if (!isnan(command->line_length)) {
+        put(writer, ",\"length_m\":");
+        put_number(writer, command->line_length);
+    }
+    if (command->line_cut != CUT_NOWHERE) put(writer, ",\"cut\":\"%s\"", places[command->line_cut]);
+    put(writer, "}");
+}
+
+void journal_format_command(double time, const Command *command, const WaveTarget *asked,
+                            char *text, int size)
 {
     Writer writer = writer_create(text, size, 0);
     put(&writer, "{\"time_s\":%.17g,\"event\":\"command\",", time);
-    put_sea(&writer, asked);
+    if (command->line[0])
+        put_order(&writer, command);
+    else
+        put_sea(&writer, asked);
     put(&writer, "}");
 }
 

@@ -39,8 +39,23 @@ static double recent_least(LineWatch *watch, double tension, double time)
     return least;
 }
 
+/// A break is told with the largest tension anywhere in the line just before.
+static void tell_break(LineWatch *watch, const Line *line, int index, double time,
+                       LineEvents *events)
+{
+    if (line->parted_count > watch->parted) {
+        LineEvent event = {LINE_BROKE, index, time, watch->strongest};
+        line_events_add(events, watch, &event);
+    }
+    watch->parted = line->parted_count;
+    watch->strongest = 0;
+    for (int i = 0; i + 1 < line->node_count; i++)
+        watch->strongest = maxd(watch->strongest, line->tension[i]);
+}
+
 void line_watch_step(LineWatch *watch, const Line *line, int index, double time, LineEvents *events)
 {
+    tell_break(watch, line, index, time, events);
     double tension = line->tension[line->node_count - 2];
     double least = recent_least(watch, tension, time);
     if (!watch->snapping) {

@@ -34,6 +34,8 @@ typedef struct LineWatch {
     bool snapping;                 ///< the peak is not yet over
     double peak, peak_time;        ///< of the snap going on [N], [s]
     double snap_time;              ///< of the last one [s], -INFINITY before the first
+    int parted;                    ///< segments, at the last look
+    double strongest;              ///< tension of any segment at the last look [N]
     int snaps;                     ///< so far
 } LineWatch;
 

@@ -74,7 +74,7 @@ static void take_lines(const State *state, Snapshot *snapshot)
             out->position[n][0] = (float)line->position[n].x;
             out->position[n][1] = (float)line->position[n].y;
             out->position[n][2] = (float)line->position[n].z;
-            if (n) out->tension[n - 1] = (float)line->tension[n - 1];
+            if (n) out->tension[n - 1] = line->parted[n - 1] ? -1 : (float)line->tension[n - 1];
         }
         out->slack = line_watch_slack(&state->watches[l]);
         out->rest = state->watches[l].rest;

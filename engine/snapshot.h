@@ -19,7 +19,7 @@ typedef struct BodySnapshot {
 typedef struct LineSnapshot {
     int node_count;
     float (*position)[3]; ///< [node_count][m], anchor first
-    float *tension;       ///< [node_count - 1][N]
+    float *tension;       ///< [node_count - 1][N]; -1 where the line has parted
     double diameter;      ///< [m]
     const char *name;     ///< constant while the scene lives, borrowed; NULL = not told
     double slack;         ///< below this a segment is slack [N]

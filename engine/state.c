@@ -105,6 +105,11 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
     TRY(state->poses = arena_take(&state->arena, bodies, sizeof(BodyPose), "poses", error));
     TRY(state->centres = arena_take(&state->arena, bodies, sizeof(Vec3), "centres", error));
     TRY(state->watches = arena_take(&state->arena, lines, sizeof(LineWatch), "lines", error));
+    TRY(state->orders = arena_take(&state->arena, lines, sizeof(LineOrder), "lines", error));
+    for (int l = 0; l < scene->line_count; l++) {
+        state->orders[l].length = NAN;
+        state->orders[l].cut = CUT_NOWHERE;
+    }
     if (lines)
         TRY(state->events = arena_take(&state->arena, 1, sizeof(LineEvents), "lines", error));
     TRY(state->slammings = arena_take(&state->arena, (size_t)scene->slamming_count,
@@ -132,6 +137,7 @@ static bool create_checkpoint(const Scene *scene, State *state, Error *error)
                                   "checkpoint", error));
     TRY(c->lines = arena_take(&state->arena, lines, sizeof(double *), "checkpoint", error));
     TRY(c->watches = arena_take(&state->arena, lines, sizeof(LineWatch), "checkpoint", error));
+    TRY(c->orders = arena_take(&state->arena, lines, sizeof(LineOrder), "checkpoint", error));
     for (int l = 0; l < scene->line_count; l++)
         TRY(c->lines[l] = arena_take(&state->arena, line_state_size(&state->lines[l]),
                                      sizeof(double), "checkpoint", error));

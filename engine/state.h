@@ -8,6 +8,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "body.h"
+#include "command.h"
 #include "line_watch.h"
 #include "plan.h"
 #include "slamming.h"
@@ -33,6 +34,7 @@ typedef struct Checkpoint {
     double **lines; ///< line_state_save of each
     Slamming *slammings;
     LineWatch *watches;
+    LineOrder *orders;
     void *particles; ///< Backend.save
 } Checkpoint;
 
@@ -52,6 +54,7 @@ typedef struct State {
     Line *lines;         ///< mooring.lines
     Slamming *slammings; ///< [scene->slamming_count]
     LineWatch *watches;  ///< [scene->line_count]
+    LineOrder *orders;   ///< [scene->line_count]
     LineEvents *events;  ///< of all lines; NULL without lines
     HealthRecord health;
     double wall_time;                            ///< spent in step_advance [s]

@@ -228,9 +228,32 @@ bool step_advance(const Scene *scene, const Plan *plan, State *state, Error *err
     return good;
 }
 
+void step_order_line(const Scene *scene, State *state, int line)
+{
+    const LineOrder *order = &state->orders[line];
+    int last = state->lines[line].node_count - 2;
+    const int segments[] = {[CUT_ANCHOR] = 0, [CUT_MIDDLE] = last / 2, [CUT_FAIRLEAD] = last};
+    if (!isnan(order->length))
+        mooring_set_length(&state->lines[line], order->length, scene->lines[line].winch.speed,
+                           state->time);
+    if (order->cut != CUT_NOWHERE) mooring_break(&state->lines[line], segments[order->cut]);
+}
+
+static bool command_line(const Scene *scene, State *state, const Command *command, Error *error)
+{
+    int line;
+    TRY(command_check_line(scene, command, state->orders, &line, error));
+    LineOrder *order = &state->orders[line];
+    if (!isnan(command->line_length)) order->length = command->line_length;
+    if (command->line_cut != CUT_NOWHERE) order->cut = command->line_cut;
+    step_order_line(scene, state, line);
+    return true;
+}
+
 bool state_command(const Scene *scene, State *state, const Command *command, Error *error)
 {
     WaveTarget target;
+    if (command->line[0]) return command_line(scene, state, command, error);
     TRY(command_check(scene, command, &state->waves.asked, &target, error));
     waves_command(&state->waves, scene, &target, state->time);
     return true;

@@ -13,4 +13,7 @@ Advance step_orders(const Scene *scene, const Plan *plan, State *state, double d
 /// The wall clock by which effects are timed [s].
 double step_clock(void);
 
+/// Carry out what is ordered of a line at the present time.
+void step_order_line(const Scene *scene, State *state, int line);
+
 #endif

@@ -59,22 +59,42 @@ static LineMark mark_of(const LineSnapshot *line, double tension)
     return told && tension >= near_largest * line->largest ? MARK_NEAR_LARGEST : MARK_WORKING;
 }
 
-/// Ribbon of one line; a line with a node that is not finite is left out. @return vertices written
-static int line_vertices(const LineSnapshot *line, LineVertex *out)
+/// Tension drawn at a node: the mean of the segments on either side that have not parted.
+static float node_tension(const LineSnapshot *line, int node)
 {
-    int nodes = line->node_count;
-    for (int n = 0; n < nodes; n++)
-        if (!finite_point(line->position[n])) return 0;
-    if (nodes < 2) return 0;
-    for (int n = 0; n < nodes; n++) {
-        float low = line->tension[n > 0 ? n - 1 : 0];
-        float high = line->tension[n < nodes - 1 ? n : nodes - 2];
-        float tension = 0.5f * (low + high);
-        put_pair(out + 2 * n, line->position[n > 0 ? n - 1 : 0], line->position[n],
-                 line->position[n < nodes - 1 ? n + 1 : n], isfinite(tension) ? tension : 0.0f,
-                 mark_of(line, tension));
+    float sum = 0.0f;
+    int count = 0;
+    for (int s = node - 1; s <= node; s++) {
+        if (s < 0 || s + 1 >= line->node_count) continue;
+        if (!isfinite(line->tension[s]) || line->tension[s] < 0.0f) continue;
+        sum += line->tension[s];
+        count++;
     }
-    return 2 * nodes;
+    return count ? sum / (float)count : 0.0f;
+}
+
+/// Ribbon of the nodes from `first` to the next parted segment or the end.
+/// @param next  filled: the node behind them   @return vertices written
+static int piece_vertices(const LineSnapshot *line, int first, int *next, LineVertex *out)
+{
+    int last = first;
+    while (last + 1 < line->node_count && !(line->tension[last] < 0.0f))
+        last++;
+    *next = last + 1;
+    if (last == first) return 0;
+    for (int n = first; n <= last; n++) {
+        float tension = node_tension(line, n);
+        put_pair(out + 2 * (n - first), line->position[n > first ? n - 1 : n], line->position[n],
+                 line->position[n < last ? n + 1 : n], tension, mark_of(line, tension));
+    }
+    return 2 * (last - first + 1);
+}
+
+static bool can_be_drawn(const LineSnapshot *line)
+{
+    for (int n = 0; n < line->node_count; n++)
+        if (!finite_point(line->position[n])) return false;
+    return line->node_count >= 2;
 }
 
 /// A post at a node: a short upright ribbon, drawn wide; the tension -1 means plain dark.
@@ -161,8 +181,9 @@ bool lines_draw(Lines *lines, const Gl *gl, const Frame *frame, double veil, Err
         close_strip(&batch, 4);
     int begin = batch.index_count;
     for (int l = 0; l < snapshot->line_count; l++) {
-        close_strip(&batch,
-                    line_vertices(&snapshot->lines[l], batch.vertices + batch.vertex_count));
+        const LineSnapshot *line = &snapshot->lines[l];
+        for (int n = 0; can_be_drawn(line) && n < line->node_count;)
+            close_strip(&batch, piece_vertices(line, n, &n, batch.vertices + batch.vertex_count));
         ends[l] = batch.index_count;
     }
     int anchors = batch.index_count;

@@ -225,7 +225,7 @@ static void put_line_words(Sheet *sheet, const Snapshot *snapshot, double y)
             if (*c == '_') *c = ' ';
         bool snap = snapshot->time - line->snap_time < SNAP_TOLD;
         snprintf(text, sizeof text, "%s  %.4g N   largest %.4g N   on the bed %.3g m%s", name,
-                 (double)line->tension[line->node_count - 2], line->largest, line->touchdown,
+                 maxd(line->tension[line->node_count - 2], 0), line->largest, line->touchdown,
                  snap ? "   SNAP" : "");
         put_text(sheet, 1.1 * em, y, text, true);
     }

@@ -177,15 +177,17 @@ static void receive_look(Hub *hub, Client *client, const ClientMessage *message)
 static bool receive_request(Hub *hub, Client *client, const ClientMessage *message)
 {
     SessionRequest request = {
-        .kind = message->kind == MESSAGE_WAVE ? REQUEST_WAVE : REQUEST_RUN,
+        .kind = message->kind == MESSAGE_RUN ? REQUEST_RUN : REQUEST_COMMAND,
         .client = client->number,
         .id = message->id,
-        .wave = message->wave,
+        .command = message->command,
         .action = (RunAction)message->action,
     };
     if (session_ask(hub->parts.session, &request)) return true;
-    return answer_busy(client, message->id, message->kind == MESSAGE_WAVE ? "wave" : "run",
-                       "too many requests wait already: try again");
+    const char *type = message->kind == MESSAGE_RUN    ? "run"
+                       : message->kind == MESSAGE_LINE ? "line"
+                                                       : "wave";
+    return answer_busy(client, message->id, type, "too many requests wait already: try again");
 }
 
 static bool receive_snapshot(Hub *hub, Client *client, const ClientMessage *message)
@@ -228,6 +230,7 @@ bool hub_receive(Hub *hub, Client *client, const char *text, size_t length)
         receive_look(hub, client, &message);
         break;
     case MESSAGE_WAVE:
+    case MESSAGE_LINE:
     case MESSAGE_RUN:
         good = receive_request(hub, client, &message);
         break;

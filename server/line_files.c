@@ -49,7 +49,7 @@ static void write_rows(FILE *table, const Scene *scene, const State *state)
     }
 }
 
-/// Each segment is a cell of its own, so that its tension is a value of that cell.
+/// Each whole segment is a cell of its own, so that its tension is a value of that cell.
 /// Format: Schroeder, Martin & Lorensen, The Visualization Toolkit, "VTK file formats", legacy.
 static void write_polydata(FILE *file, const Scene *scene, const State *state)
 {
@@ -57,6 +57,8 @@ static void write_polydata(FILE *file, const Scene *scene, const State *state)
     for (int l = 0; l < lines; l++)
         nodes += state->lines[l].node_count;
     int segments = nodes - lines;
+    for (int l = 0; l < lines; l++)
+        segments -= state->lines[l].parted_count;
     fprintf(file, "# vtk DataFile Version 3.0\nmooring lines at t = %.9g s\nASCII\n", state->time);
     fprintf(file, "DATASET POLYDATA\nPOINTS %d double\n", nodes);
     for (int l = 0; l < lines; l++)
@@ -67,15 +69,15 @@ static void write_polydata(FILE *file, const Scene *scene, const State *state)
     fprintf(file, "LINES %d %d\n", segments, 3 * segments);
     for (int l = 0; l < lines; first += state->lines[l++].node_count)
         for (int n = 0; n + 1 < state->lines[l].node_count; n++)
-            fprintf(file, "2 %d %d\n", first + n, first + n + 1);
+            if (!state->lines[l].parted[n]) fprintf(file, "2 %d %d\n", first + n, first + n + 1);
     fprintf(file, "CELL_DATA %d\nSCALARS tension_n double 1\nLOOKUP_TABLE default\n", segments);
     for (int l = 0; l < lines; l++)
         for (int n = 0; n + 1 < state->lines[l].node_count; n++)
-            fprintf(file, "%.9g\n", state->lines[l].tension[n]);
+            if (!state->lines[l].parted[n]) fprintf(file, "%.9g\n", state->lines[l].tension[n]);
     fprintf(file, "SCALARS line int 1\nLOOKUP_TABLE default\n");
     for (int l = 0; l < lines; l++)
         for (int n = 0; n + 1 < state->lines[l].node_count; n++)
-            fprintf(file, "%d\n", l);
+            if (!state->lines[l].parted[n]) fprintf(file, "%d\n", l);
     fprintf(file, "POINT_DATA %d\nVECTORS velocity_ms double\n", nodes);
     for (int l = 0; l < lines; l++)
         for (int n = 0; n < state->lines[l].node_count; n++) {

@@ -10,6 +10,7 @@ typedef enum ValueKind {
     VALUE_INT,    ///< whole number into int
     VALUE_NUMBER, ///< into double, times `scale`
     VALUE_WORD,   ///< one of `words` into int
+    VALUE_NAME,   ///< text into char[SCENE_NAME_SIZE]
     VALUE_BOOL,   ///< into int
     VALUE_POINT,  ///< [x, y, z] into Vec3
 } ValueKind;
@@ -70,9 +71,16 @@ static const MessageRule message_rules[] = {
      MESSAGE_WAVE,
      true,
      {ID,
-      {"height_m", VALUE_NUMBER, AT(wave.wave_height), 0, 1e3, 1, NULL, false},
-      {"period_s", VALUE_NUMBER, AT(wave.wave_period), 0, 1e4, 1, NULL, false},
-      {"heading_deg", VALUE_NUMBER, AT(wave.wave_heading), -3600, 3600, DEGREE, NULL, false}}},
+      {"height_m", VALUE_NUMBER, AT(command.wave_height), 0, 1e3, 1, NULL, false},
+      {"period_s", VALUE_NUMBER, AT(command.wave_period), 0, 1e4, 1, NULL, false},
+      {"heading_deg", VALUE_NUMBER, AT(command.wave_heading), -3600, 3600, DEGREE, NULL, false}}},
+    {"line",
+     MESSAGE_LINE,
+     true,
+     {ID,
+      {"name", VALUE_NAME, AT(command.line), 0, 0, 1, NULL, true},
+      {"length_m", VALUE_NUMBER, AT(command.line_length), 0, 1e6, 1, NULL, false},
+      {"cut", VALUE_WORD, AT(command.line_cut), 0, 0, 1, "anchor|middle|fairlead", false}}},
     {"run",
      MESSAGE_RUN,
      false,
@@ -96,7 +104,7 @@ static ClientMessage message_default(void)
         .elevation = NAN,
         .distance = NAN,
         .target = {NAN, NAN, NAN},
-        .wave = {.wave_height = NAN, .wave_period = NAN, .wave_heading = NAN},
+        .command = command_default(),
     };
 }
 
@@ -167,6 +175,13 @@ static bool read_value(const cJSON *item, const ValueRule *rule, const char *typ
         *(int *)place = index;
         return true;
     }
+    case VALUE_NAME:
+        if (!cJSON_IsString(item) || !*item->valuestring ||
+            strlen(item->valuestring) >= SCENE_NAME_SIZE)
+            return refuse(refusal, type, rule->key, "accepted is a name of 1 to %d characters",
+                          SCENE_NAME_SIZE - 1);
+        snprintf(place, SCENE_NAME_SIZE, "%s", item->valuestring);
+        return true;
     case VALUE_BOOL:
         if (!cJSON_IsBool(item))
             return refuse(refusal, type, rule->key, "accepted is true or false");
@@ -275,6 +290,22 @@ static double number_or_nan(const cJSON *object, const char *key, double scale)
     return cJSON_IsNumber(item) ? item->valuedouble * scale : NAN;
 }
 
+/// What a journal line says of a line: {"name": …, "length_m": …, "cut": …}.
+static bool read_order(const cJSON *order, Command *command, Error *error)
+{
+    const cJSON *name = cJSON_GetObjectItemCaseSensitive(order, "name");
+    const cJSON *cut = cJSON_GetObjectItemCaseSensitive(order, "cut");
+    if (!cJSON_IsString(name) || !*name->valuestring)
+        return error_set(error, ERROR_INPUT, "line.name: missing, or not a text");
+    snprintf(command->line, sizeof command->line, "%s", name->valuestring);
+    command->line_length = number_or_nan(order, "length_m", 1);
+    if (!cut) return true;
+    command->line_cut =
+        cJSON_IsString(cut) ? word_index("anchor|middle|fairlead", cut->valuestring) : CUT_NOWHERE;
+    return command->line_cut != CUT_NOWHERE ||
+           error_set(error, ERROR_INPUT, "line.cut: accepted is one of anchor|middle|fairlead");
+}
+
 bool protocol_parse_journal(const char *line, bool *is_command, JournalCommand *command,
                             Error *error)
 {
@@ -285,16 +316,21 @@ bool protocol_parse_journal(const char *line, bool *is_command, JournalCommand *
         return error_set(error, ERROR_INPUT, "not a JSON object");
     }
     const cJSON *wave = cJSON_GetObjectItemCaseSensitive(root, "wave");
+    const cJSON *order = cJSON_GetObjectItemCaseSensitive(root, "line");
     const cJSON *event = cJSON_GetObjectItemCaseSensitive(root, "event");
+    bool wanted = !cJSON_IsString(event) || !strcmp(event->valuestring, "command");
     bool good = true;
-    if (cJSON_IsObject(wave) &&
-        (!cJSON_IsString(event) || !strcmp(event->valuestring, "command"))) {
+    *is_command = wanted && (cJSON_IsObject(wave) || cJSON_IsObject(order));
+    if (*is_command) {
         command->time = number_or_nan(root, "time_s", 1);
-        command->command.wave_height = number_or_nan(wave, "height_m", 1);
-        command->command.wave_period = number_or_nan(wave, "period_s", 1);
-        command->command.wave_heading = number_or_nan(wave, "heading_deg", DEGREE);
-        *is_command = true;
-        if (!isfinite(command->time) || command->time < 0)
+        command->command = command_default();
+        if (cJSON_IsObject(order)) good = read_order(order, &command->command, error);
+        if (cJSON_IsObject(wave) && !cJSON_IsObject(order)) {
+            command->command.wave_height = number_or_nan(wave, "height_m", 1);
+            command->command.wave_period = number_or_nan(wave, "period_s", 1);
+            command->command.wave_heading = number_or_nan(wave, "heading_deg", DEGREE);
+        }
+        if (good && (!isfinite(command->time) || command->time < 0))
             good = error_set(error, ERROR_INPUT, "time_s: missing, or not a number from 0");
     }
     cJSON_Delete(root);

@@ -20,6 +20,7 @@ typedef enum ClientMessageKind {
     MESSAGE_VIEW,
     MESSAGE_CAMERA,
     MESSAGE_WAVE,
+    MESSAGE_LINE,
     MESSAGE_RUN,
     MESSAGE_SNAPSHOT,
 } ClientMessageKind;
@@ -29,7 +30,7 @@ typedef enum RunAction { ACTION_START, ACTION_PAUSE, ACTION_RESET } RunAction;
 /// One message of a client; values that were not given hold what the comments say.
 typedef struct ClientMessage {
     ClientMessageKind kind;
-    uint32_t id; ///< of wave, run, snapshot
+    uint32_t id; ///< of wave, line, run, snapshot
     uint32_t protocol;
     uint32_t frame;                      ///< of ack
     int width, height;                   ///< [pixel]; 0 = not given
@@ -38,7 +39,7 @@ typedef struct ClientMessage {
     int dark;                            ///< 0, 1; -1 = not given
     double azimuth, elevation, distance; ///< [rad], [m]; NAN = not given
     Vec3 target;                         ///< [m]; NANs = not given
-    Command wave;                        ///< NANs = not given
+    Command command;                     ///< of wave and line; NANs = not given
     int action;                          ///< RunAction
 } ClientMessage;
 

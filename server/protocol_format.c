@@ -88,6 +88,24 @@ static void write_names(Json *json, const Scene *scene)
     json_array_end(json);
 }
 
+/// What may be done to each line's length, in the order of `lines`; null without a winch.
+static void write_winches(Json *json, const Scene *scene)
+{
+    json_array(json, "winches");
+    for (int i = 0; i < scene->line_count; i++) {
+        const WinchScene *winch = &scene->lines[i].winch;
+        if (!(winch->speed > 0)) {
+            json_null(json, NULL);
+            continue;
+        }
+        json_object(json, NULL);
+        write_range(json, "length_m", winch->length, 1);
+        json_number(json, "speed_ms", winch->speed);
+        json_object_end(json);
+    }
+    json_array_end(json);
+}
+
 static void write_limits(Json *json, const Waves *waves)
 {
     if (waves->kind == WAVES_NONE) {
@@ -126,6 +144,7 @@ void protocol_format_hello(Text *text, const HelloInfo *info)
         json_string(&json, NULL, info->columns->names[i]);
     json_array_end(&json);
     write_names(&json, scene);
+    write_winches(&json, scene);
     write_limits(&json, &scene->waves);
     json_object(&json, "camera");
     write_camera(&json, &info->view->camera);
@@ -171,6 +190,16 @@ void protocol_format_status(Text *text, const SessionStatus *status, double fram
     } else {
         json_null(&json, "wave");
     }
+    json_array(&json, "lines");
+    for (int i = 0; i < status->line_count; i++) {
+        json_object(&json, NULL);
+        json_number(&json, "length_m", status->lines[i].length);
+        json_number(&json, "asked_m", status->lines[i].asked);
+        json_number(&json, "largest_n", status->lines[i].largest);
+        json_bool(&json, "parted", status->lines[i].parted);
+        json_object_end(&json);
+    }
+    json_array_end(&json);
     json_object(&json, "shares");
     for (int i = 0; i < status->share_count; i++)
         json_number(&json, status->shares[i].name, status->shares[i].share);

@@ -189,6 +189,12 @@ static void fill_from_state(const Session *session, SessionStatus *status)
     status->density_error = state->density_error;
     status->health = state->health.status;
     snprintf(status->health_message, sizeof status->health_message, "%s", state->health.message);
+    status->line_count = session->scene->line_count;
+    for (int l = 0; l < status->line_count; l++)
+        status->lines[l] = (LineStatus){.length = state->lines[l].length,
+                                        .asked = state->orders[l].length,
+                                        .largest = state->lines[l].largest_tension,
+                                        .parted = state->lines[l].parted_count > 0};
     if (session->scene->waves.kind == WAVES_NONE) return;
     status->has_waves = true;
     status->wave_asked = state->waves.asked;
@@ -287,7 +293,7 @@ static bool carry_out_run(Session *session, RunAction action, Error *error)
 }
 
 /// What a command changes, short enough for a label on a plot: "height 0.2 m, heading 210°".
-static void describe_command(const Command *command, char *text, int size)
+static void describe_sea(const Command *command, char *text, int size)
 {
     int length = 0;
     text[0] = 0;
@@ -302,7 +308,21 @@ static void describe_command(const Command *command, char *text, int size)
                  command->wave_heading * (180.0 / PI));
 }
 
-static bool carry_out_wave(Session *session, const Command *command, Error *error)
+/// The same for a line: "bow line to 5.2 m".
+static void describe_order(const Command *command, char *text, int size)
+{
+    static const char *const places[] = {"anchor", "middle", "fairlead"};
+    char name[SCENE_NAME_SIZE];
+    snprintf(name, sizeof name, "%s", command->line);
+    for (char *c = name; *c; c++)
+        if (*c == '_') *c = ' ';
+    if (command->line_cut != CUT_NOWHERE)
+        snprintf(text, (size_t)size, "%s cut at %s", name, places[command->line_cut]);
+    else
+        snprintf(text, (size_t)size, "%s to %.4g m", name, command->line_length);
+}
+
+static bool carry_out_command(Session *session, const Command *command, Error *error)
 {
     State *state = session->state;
     if (session->run_state == RUN_FAILED || !state)
@@ -311,18 +331,19 @@ static bool carry_out_wave(Session *session, const Command *command, Error *erro
     const WaveTarget *asked = &state->waves.asked;
     if (state->waves.has_queued) asked = &state->waves.queued;
     char line[1024], text[200];
-    journal_format_command(state->time, asked, line, sizeof line);
+    journal_format_command(state->time, command, asked, line, sizeof line);
     journal(session, line);
-    describe_command(command, text, sizeof text);
+    (command->line[0] ? describe_order : describe_sea)(command, text, sizeof text);
     history_add_marker(session->history, state->time, text);
     return true;
 }
 
-/// The engine begins its message with the path it is about: "wave.height_m: 9 is …".
+/// The engine begins its message with the path it is about: "wave.height_m = 9: …".
 static void split_path(const char *kind, const Error *error, Refusal *refusal)
 {
     size_t length = strcspn(error->message, " :=");
-    bool path = length < sizeof refusal->path && !strncmp(error->message, "wave", 4) &&
+    bool about = !strncmp(error->message, "wave", 4) || !strncmp(error->message, "line", 4);
+    bool path = length < sizeof refusal->path && about &&
                 (error->message[length] == ':' || error->message[length] == ' ');
     snprintf(refusal->path, sizeof refusal->path, "%.*s", path ? (int)length : (int)strlen(kind),
              path ? error->message : kind);
@@ -335,13 +356,14 @@ static void answer_requests(Session *session)
     bool some = false;
     while (queue_take(&session->requests, &request)) {
         Error error = {0};
-        bool wave = request.kind == REQUEST_WAVE;
+        bool command = request.kind == REQUEST_COMMAND;
         SessionReply reply = {.client = request.client, .refusal = {.has_id = true}};
         reply.refusal.id = request.id;
-        reply.accepted = wave ? carry_out_wave(session, &request.wave, &error)
-                              : carry_out_run(session, request.action, &error);
+        reply.accepted = command ? carry_out_command(session, &request.command, &error)
+                                 : carry_out_run(session, request.action, &error);
         reply.time = session->state ? session->state->time : 0;
-        if (!reply.accepted) split_path(wave ? "wave" : "run.action", &error, &reply.refusal);
+        const char *kind = !command ? "run.action" : request.command.line[0] ? "line" : "wave";
+        if (!reply.accepted) split_path(kind, &error, &reply.refusal);
         queue_put(&session->replies, &reply);
         some = true;
     }

@@ -11,14 +11,14 @@
 
 typedef struct Session Session;
 
-typedef enum RequestKind { REQUEST_WAVE, REQUEST_RUN } RequestKind;
+typedef enum RequestKind { REQUEST_COMMAND, REQUEST_RUN } RequestKind;
 
 /// Asked by a client, carried out between two steps.
 typedef struct SessionRequest {
     RequestKind kind;
     uint64_t client; ///< who is answered
     uint32_t id;
-    Command wave;
+    Command command;
     RunAction action;
 } SessionRequest;
 

@@ -6,6 +6,14 @@
 
 typedef enum RunState { RUN_RUNNING, RUN_PAUSED, RUN_FAILED } RunState;
 
+/// One line, as the page's controls show it.
+typedef struct LineStatus {
+    double length;  ///< unstretched now [m]
+    double asked;   ///< of its winch [m]; NAN = nothing yet
+    double largest; ///< tension so far [N]
+    bool parted;
+} LineStatus;
+
 typedef struct SessionStatus {
     double time; ///< simulated [s]
     RunState state;
@@ -19,6 +27,8 @@ typedef struct SessionStatus {
     bool has_waves;
     WaveTarget wave_asked, wave_now;
     bool wave_changing;
+    int line_count;
+    LineStatus lines[SCENE_LINES_MAX];
     int share_count;
     EffectShare shares[EFFECT_COUNT + 1]; ///< active effects and "base", of a step's wall time
 } SessionStatus;

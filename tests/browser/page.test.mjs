@@ -136,6 +136,30 @@ test("the snapshot is a PNG of the size chosen, named after case and time, and s
   assert.ok(colours.size > 50, `${colours.size} colours`);
 });
 
+test("a line is hauled in by its winch within its limits, and cut after asking; both are marked", async () => {
+  await setRunning(page, true);
+  const answered = (id) => until("it is accepted", () => page.received.some((message) => message.type === "accepted" && message.id === id));
+  const winch = page.getByLabel("Winch to m", { exact: true });
+  await winch.fill("5.8");
+  await page.keyboard.press("Enter");
+  const haul = await until("the length is sent", () => page.sent.findLast(({ type, length_m }) => type === "line" && length_m === 5.8));
+  await answered(haul.id);
+  await until("the status says so", () => page.received.findLast(({ type }) => type === "status").lines[0].asked_m === 5.8);
+  const orders = page.sent.filter(({ type }) => type === "line").length;
+  await winch.fill("50");
+  await page.keyboard.press("Enter");
+  await page.locator(".notice.bad", { hasText: "Length must be" }).waitFor();
+  assert.equal(Number(await winch.inputValue()), 5.8);
+  assert.equal(page.sent.filter(({ type }) => type === "line").length, orders);
+  await page.getByRole("button", { name: "Cut…" }).click();
+  await page.locator("dialog").getByRole("button", { name: "At the fairlead" }).click();
+  const cut = await until("the cut is sent", () => page.sent.findLast(({ type, cut: place }) => type === "line" && place === "fairlead"));
+  await answered(cut.id);
+  await page.locator(".line-bar .parted").waitFor();
+  assert.equal(await page.getByRole("button", { name: "Cut…" }).isDisabled(), true);
+  await until("both are marked", () => page.received.filter(({ type, text }) => type === "marker" && /line/.test(text)).length >= 2);
+});
+
 test("reset asks first and then begins at zero with empty plots", async () => {
   await page.getByRole("button", { name: "Reset" }).click();
   const time = () => page.received.findLast(({ type }) => type === "status").time_s;

@@ -173,6 +173,9 @@ bool state_create(const Scene *scene, const Plan *plan, State **state, Error *er
     if (!*state) return error_set(error, ERROR_SYSTEM, "no memory");
     static LineWatch watch;
     static Line line;
+    static LineOrder order;
+    order.length = NAN;
+    (*state)->orders = &order;
     (*state)->watches = &watch;
     (*state)->lines = &line;
     (*state)->time_step = plan->time_step;
@@ -207,7 +210,7 @@ bool step_advance(const Scene *scene, const Plan *plan, State *state, Error *err
     return true;
 }
 
-Command command_default(void) { return (Command){NAN, NAN, NAN}; }
+Command command_default(void) { return (Command){NAN, NAN, NAN, "", NAN, CUT_NOWHERE}; }
 
 bool command_check(const Scene *scene, const Command *command, const WaveTarget *last,
                    WaveTarget *target, Error *error)
@@ -226,6 +229,12 @@ bool command_check(const Scene *scene, const Command *command, const WaveTarget 
 bool state_command(const Scene *scene, State *state, const Command *command, Error *error)
 {
     WaveTarget target;
+    if (command->line[0]) {
+        if (strcmp(command->line, scene->lines[0].name) != 0)
+            return error_set(error, ERROR_INPUT, "line.name = \"%s\": no such line", command->line);
+        state->orders[0].length = command->line_length;
+        return true;
+    }
     TRY(command_check(scene, command, &state->waves.asked, &target, error));
     state->waves.asked = target;
     return true;
@@ -306,7 +315,8 @@ void journal_format_start(const Scene *scene, const Plan *plan, char *text, int 
     snprintf(text, (size_t)size, "{\"event\":\"start\",\"time_s\":0,\"case\":\"%s\"}", scene->name);
 }
 
-void journal_format_command(double time, const WaveTarget *asked, char *text, int size)
+void journal_format_command(double time, const Command *command, const WaveTarget *asked,
+                            char *text, int size)
 {
     snprintf(
         text, (size_t)size,

@@ -24,6 +24,11 @@ test('a live session is repeated headless, bit by bit', async () => {
             assert.equal(answer.type, 'accepted', answer.message);
             await sleep(700);
         }
+        for (const change of [{ length_m: 5.61 }, { cut: 'middle' }]) {
+            const answer = await client.ask({ type: 'line', name: 'bow_line', ...change });
+            assert.equal(answer.type, 'accepted', answer.message);
+            await sleep(700);
+        }
         const until = client.rows().at(-1)[0];
         client.close();
         await server.stop();
@@ -33,7 +38,8 @@ test('a live session is repeated headless, bit by bit', async () => {
         const live = readFileSync(join(server.folder(), 'series.csv'), 'utf8');
         const replay = readFileSync(join(out, 'series.csv'), 'utf8');
         const journal = readFileSync(join(out, 'journal.jsonl'), 'utf8').trim().split('\n');
-        assert.equal(journal.filter((line) => line.includes('"command"')).length, 3);
+        assert.equal(journal.filter((line) => line.includes('"command"')).length, 5);
+        assert.equal(journal.filter((line) => line.includes('"break"')).length, 1);
         assert.ok(replay.split('\n').length > 10, 'some samples');
         assert.equal(live.slice(0, replay.length), replay);
     } finally {

@@ -112,6 +112,16 @@ test('hello brings hello, status, series and pictures', async () => {
     client.close();
 });
 
+test('an order for a line is accepted or refused with its id, and told in the status', async () => {
+    const client = await server.greet();
+    assert.deepEqual(client.hello.winches, [null]);
+    assert.equal((await client.ask({ type: 'line', name: 'bow_line', length_m: 5.5 })).type, 'accepted');
+    const refusal = await client.ask({ type: 'line', name: 'stern_line', cut: 'anchor' });
+    assert.deepEqual([refusal.type, refusal.path], ['error', 'line.name']);
+    while ((await client.next('status')).lines[0].asked_m !== 5.5);
+    client.close();
+});
+
 test('before hello nothing but an error comes', async () => {
     const client = server.connect();
     await client.opened;

@@ -61,7 +61,7 @@ TEST(requests_beyond_the_queue_are_refused_and_all_others_answered)
     Prepared prepared;
     Session *session = make_session(&prepared, NULL);
     if (!session) return;
-    SessionRequest request = {.kind = REQUEST_WAVE, .client = 5, .wave = {0.1, NAN, NAN}};
+    SessionRequest request = {.kind = REQUEST_COMMAND, .client = 5, .command = {0.1, NAN, NAN}};
     uint32_t stored = 0, answered = 0;
     while (stored < 10000 && session_ask(session, &request))
         request.id = ++stored;

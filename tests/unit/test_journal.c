@@ -7,6 +7,7 @@
 
 static Scene scene;
 static Plan plan;
+static const Command sea; // no line: a command about the sea
 
 static void prepare(void)
 {
@@ -76,7 +77,7 @@ TEST(a_command_is_read_back_bit_by_bit)
         time += 4.1e-4 / 3;
         double degrees = -180 + 0.37 * i;
         WaveTarget asked = {0.1 + 1e-4 * i / 7, 1.2 + 1e-3 * i / 3, degrees * (PI / 180)};
-        journal_format_command(time, &asked, line, sizeof line);
+        journal_format_command(time, &sea, &asked, line, sizeof line);
         cJSON *json = cJSON_Parse(line), *wave = cJSON_GetObjectItem(json, "wave");
         CHECK(!strcmp(text_of(json, "event"), "command"));
         CHECK(number(json, "time_s") == time);
@@ -91,7 +92,7 @@ TEST(a_command_reads_as_a_person_wrote_it)
 {
     char line[512];
     WaveTarget asked = {0.3, 1.58, 45 * (PI / 180)};
-    journal_format_command(12.5, &asked, line, sizeof line);
+    journal_format_command(12.5, &sea, &asked, line, sizeof line);
     CHECK_CONTAINS(line, "{\"time_s\":12.5,\"event\":\"command\",\"wave\":{\"height_m\":0.3,"
                          "\"period_s\":1.58,\"heading_deg\":45}}");
 }

@@ -22,8 +22,9 @@ TEST(each_message_of_the_page_is_read)
     CHECK_NEAR(message.azimuth, PI / 2, 1e-15);
     CHECK(message.target.z == -3 && isnan(message.distance));
     CHECK(parse("{\"type\":\"wave\",\"id\":7,\"heading_deg\":-180}"));
-    CHECK(message.id == 7 && isnan(message.wave.wave_height) && isnan(message.wave.wave_period));
-    CHECK_NEAR(message.wave.wave_heading, -PI, 1e-15);
+    CHECK(message.id == 7 && isnan(message.command.wave_height) &&
+          isnan(message.command.wave_period));
+    CHECK_NEAR(message.command.wave_heading, -PI, 1e-15);
     CHECK(parse("{\"type\":\"run\",\"id\":0,\"action\":\"reset\"}") &&
           message.action == ACTION_RESET);
     CHECK(parse("{\"type\":\"snapshot\",\"id\":3,\"width\":1920,\"height\":1080}"));
@@ -177,6 +178,41 @@ TEST(a_picture_header_is_little_endian_and_as_documented)
         'F', 'L', 'F', '1', 1, 0, 0,    0,    4,    3,    2, 1, 0xc0, 3, 0x1c, 2,
         0,   0,   0,   0,   0, 0, 0xf8, 0x3f, 0x0b, 0x0a, 0, 0, 0,    0, 0,    0};
     CHECK(!memcmp(bytes, expected, sizeof expected));
+}
+
+TEST(orders_for_lines_are_read)
+{
+    CHECK(parse("{\"type\":\"line\",\"id\":3,\"name\":\"bow_line\",\"length_m\":5.5}"));
+    CHECK(message.kind == MESSAGE_LINE && !strcmp(message.command.line, "bow_line"));
+    CHECK(message.command.line_length == 5.5 && message.command.line_cut == CUT_NOWHERE);
+    CHECK(parse("{\"type\":\"line\",\"id\":3,\"name\":\"bow_line\",\"cut\":\"fairlead\"}"));
+    CHECK(message.command.line_cut == CUT_FAIRLEAD && isnan(message.command.line_length));
+    CHECK(!parse("{\"type\":\"line\",\"id\":3,\"name\":\"bow_line\"}"));
+    CHECK(!parse("{\"type\":\"line\",\"id\":3,\"name\":\"bow_line\",\"cut\":\"here\"}"));
+    CHECK_CONTAINS(refusal.message, "anchor|middle|fairlead");
+    CHECK(!parse("{\"type\":\"line\",\"id\":3,\"length_m\":5}") && refusal.has_id);
+}
+
+TEST(orders_for_lines_are_read_back_from_the_journal)
+{
+    bool is_command;
+    JournalCommand read;
+    Error error = {0};
+    const WaveTarget sea = {0.1, 1, 0};
+    Command order = command_default();
+    snprintf(order.line, sizeof order.line, "bow_line");
+    order.line_length = 0.1 + 0.2;
+    order.line_cut = CUT_MIDDLE;
+    char line[400];
+    journal_format_command(2.5, &order, &sea, line, sizeof line);
+    CHECK(protocol_parse_journal(line, &is_command, &read, &error) && is_command);
+    CHECK(read.time == 2.5 && read.command.line_length == order.line_length);
+    CHECK(!strcmp(read.command.line, "bow_line") && read.command.line_cut == CUT_MIDDLE);
+    const char *snap = "{\"time_s\":1,\"event\":\"snap\",\"line\":\"bow_line\",\"tension_n\":3}";
+    CHECK(protocol_parse_journal(snap, &is_command, &read, &error) && !is_command);
+    CHECK(!protocol_parse_journal("{\"time_s\":1,\"line\":{\"length_m\":3}}", &is_command, &read,
+                                  &error));
+    CHECK_CONTAINS(error.message, "line.name");
 }
 
 TEST(journal_lines_are_read_back)

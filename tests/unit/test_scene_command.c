@@ -8,7 +8,10 @@ static WaveTarget target;
 
 static bool ask(double height, double period, double heading_deg)
 {
-    Command command = {height, period, heading_deg * PI / 180};
+    Command command = command_default();
+    command.wave_height = height;
+    command.wave_period = period;
+    command.wave_heading = heading_deg * PI / 180;
     WaveTarget last = {0.1, 1.5, PI};
     memset(&error, 0, sizeof error);
     target = (WaveTarget){-1, -1, -1};

@@ -43,6 +43,7 @@ const HELLO = {
   bodies: ["ship"],
   lines: ["bow_line"],
   gauges: ["g1", "g2"],
+  winches: [{ length_m: [5, 7], speed_ms: 0.2 }],
   limits: { height_m: [0.05, 0.4], period_s: [1.2, 2.6], heading_deg: [-180, 180] },
   warnings: ["The undriven interior is shorter than one wave length at the longest period allowed."],
   effects: [
@@ -122,6 +123,7 @@ function status() {
     clients: clients.size,
     health: failed ? { status: "failed", message: "bodies: ship.heave is not a number at t = 4.21 s" } : { status: "good", message: "" },
     wave: { asked: run.asked, now: sea, changing },
+    lines: [{ length_m: run.length ?? 6, asked_m: run.length ?? null, largest_n: 52.3, parted: run.parted ?? false }],
     shares: SHARES,
   };
 }
@@ -204,6 +206,12 @@ const HANDLERS = {
     run.changedAt = run.time;
     socket.send(JSON.stringify({ type: "accepted", id, time_s: run.time }));
     mark(Object.entries(change).map(([key, value]) => `${key.replace("_", " ")} ${value}`).join(", "));
+  },
+  line(socket, { id, name, length_m, cut }) {
+    if (length_m !== undefined) run.length = length_m;
+    if (cut !== undefined) run.parted = true;
+    socket.send(JSON.stringify({ type: "accepted", id, time_s: run.time }));
+    mark(cut === undefined ? `${name} to ${length_m} m` : `${name} cut at ${cut}`);
   },
   run(socket, { id, action }) {
     if (action === "reset") {

@@ -2,6 +2,7 @@
 import { useEffect } from "preact/hooks";
 import { EffectsCard } from "./effects_card.tsx";
 import { Header } from "./header.tsx";
+import { LineBar } from "./line_bar.tsx";
 import { Meters } from "./meters.tsx";
 import { Notices } from "./notices.tsx";
 import { PictureView } from "./picture.tsx";
@@ -28,6 +29,7 @@ export function App({ session }: { session: Session }) {
       <main>
         <PictureView session={session} />
         <Meters session={session} />
+        <LineBar session={session} />
         <WaveCard session={session} />
         <Plots session={session} />
         <ViewCard session={session} />

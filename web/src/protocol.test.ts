@@ -20,6 +20,7 @@ const STATUS = {
     now: { height_m: 0.3, period_s: 1.58, heading_deg: 10 },
     changing: true,
   },
+  lines: [{ length_m: 6, asked_m: null, largest_n: 40, parted: false }],
   shares: { base: 0.6, walls: 0.1 },
 };
 
@@ -37,6 +38,7 @@ const HELLO = {
   bodies: ["ship"],
   lines: [],
   gauges: [],
+  winches: [{ length_m: [4, 8], speed_ms: 0.1 }, null],
   limits: { height_m: [0.05, 0.4], period_s: [1, 2.6], heading_deg: [-180, 180] },
   camera: { azimuth_deg: 120, elevation_deg: 15, distance_m: 8, target_m: [0, 0, 0] },
   view: { width: 960, height: 540, water: "surface", field: "none", dark: false },

@@ -55,6 +55,18 @@ export type WaveKey = keyof Wave;
 const limits = object({ height_m: range, period_s: range, heading_deg: range });
 export type Limits = Value<typeof limits>;
 
+const winch = object({ length_m: range, speed_ms: number });
+/** What may be done to a line's length: the whole line's shortest and longest, and how fast. */
+export type Winch = Value<typeof winch>;
+
+export const CUT_PLACES = ["anchor", "middle", "fairlead"] as const;
+export type CutPlace = (typeof CUT_PLACES)[number];
+/** What is to happen to a line. */
+export type LineOrder = { length_m?: number; cut?: CutPlace };
+
+const lineStatus = object({ length_m: numberOrNaN, asked_m: numberOrNaN, largest_n: numberOrNaN, parted: flag });
+export type LineStatus = Value<typeof lineStatus>;
+
 const effect = object({
   name: text,
   kind: oneOf("pair", "pass"),
@@ -84,6 +96,7 @@ const hello = object({
   bodies: list(text),
   lines: list(text),
   gauges: list(text),
+  winches: list(orNull(winch)),
   limits: orNull(limits),
   camera,
   view,
@@ -105,6 +118,7 @@ const status = object({
   clients: number,
   health: object({ status: oneOf("good", "recovered", "failed"), message: text }),
   wave: orNull(object({ asked: wave, now: wave, changing: flag })),
+  lines: list(lineStatus),
   shares: dictionary(numberOrNaN),
 });
 export type Status = Value<typeof status>;
@@ -179,6 +193,7 @@ export type ClientMessage =
   | ({ type: "view" } & View)
   | ({ type: "camera" } & Camera)
   | ({ type: "wave"; id: number } & Partial<Wave>)
+  | ({ type: "line"; id: number; name: string } & LineOrder)
   | { type: "run"; id: number; action: RunAction }
   | { type: "snapshot"; id: number; width: number; height: number };
 

@@ -39,7 +39,7 @@ class FakeSocket {
 const CAMERA = { azimuth_deg: 10, elevation_deg: 20, distance_m: 5, target_m: [0, 0, 0] };
 const HELLO = {
   type: "hello", protocol: 1, version: "0", case: { name: "c", title: "C", hash: "1" }, backend: "cpu", threads: 1,
-  renderer: "r", particles: 1, spacing_m: 1, columns: ["t_s", "a.heave_m"], bodies: ["a"], lines: [], gauges: [],
+  renderer: "r", particles: 1, spacing_m: 1, columns: ["t_s", "a.heave_m"], bodies: ["a"], lines: ["l"], gauges: [], winches: [null],
   limits: { height_m: [0, 1], period_s: [1, 2], heading_deg: [0, 360] }, camera: CAMERA,
   view: { width: 960, height: 540, water: "particles", field: "none", dark: false }, warnings: [], effects: [],
 };
@@ -47,7 +47,7 @@ const SEA = { height_m: 0.2, period_s: 1.5, heading_deg: 0 };
 const status = (asked: object) => ({
   type: "status", time_s: 1, state: "running", speed: 1, step: 1, time_step_s: 1, particle_steps_per_s: 1,
   density_error: 0, frames_per_s: 1, clients: 1, health: { status: "good", message: "" },
-  wave: { asked, now: SEA, changing: false }, shares: {},
+  wave: { asked, now: SEA, changing: false }, lines: [], shares: {},
 });
 
 let session: Session;
@@ -125,6 +125,17 @@ test("a reset forgets series and marks", () => {
   socket.say({ type: "reset" });
   assert.equal(session.series.value.count, 0);
   assert.deepEqual(session.marks.value, []);
+});
+
+test("an order for a line names it and carries what is to happen", () => {
+  socket.say(HELLO);
+  session.orderLine("l", { length_m: 5.5 });
+  session.orderLine("l", { cut: "fairlead" });
+  const orders = socket.sent.filter(({ type }) => type === "line") as { id: number }[];
+  assert.deepEqual(orders.map(({ id: _id, ...order }) => order), [
+    { type: "line", name: "l", length_m: 5.5 },
+    { type: "line", name: "l", cut: "fairlead" },
+  ]);
 });
 
 test("after a loss it tries again by itself and is rebuilt from hello and series", async () => {

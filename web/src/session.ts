@@ -6,6 +6,7 @@ import {
   PROTOCOL,
   type Camera,
   type Hello,
+  type LineOrder,
   type Picture,
   type Refused,
   type RunAction,
@@ -77,6 +78,11 @@ export class Session {
     this.wanted.value = { ...this.wanted.value, ...change };
     this.waveAccepted = false;
     this.sendWave(change);
+  }
+
+  /** Turn a line's winch, or cut it; a refusal comes as a notice. */
+  orderLine(name: string, order: LineOrder): void {
+    this.connection.send({ type: "line", id: this.nextId++, name, ...order });
   }
 
   run(action: RunAction): void {
