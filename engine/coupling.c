@@ -36,15 +36,14 @@ void coupling_collect_loads(const Scene *scene, const Line *lines, Body *bodies)
         bodies[b].line_force = bodies[b].line_moment = vec3(0, 0, 0);
     for (int l = 0; l < scene->line_count; l++) {
         const LineEnd *ends[2] = {&scene->lines[l].anchor, &scene->lines[l].fairlead};
-        const Vec3 pulls[2] = {lines[l].anchor_force, lines[l].fairlead_force};
         for (int side = 0; side < 2; side++) {
             Vec3 place;
             int b = holder(scene, ends[side], &place);
             if (b < 0) continue;
             Body *body = &bodies[b];
             Vec3 arm = vec3_sub(body_point(body, place), body->position);
-            body->line_force = vec3_add(body->line_force, pulls[side]);
-            body->line_moment = vec3_add(body->line_moment, vec3_cross(arm, pulls[side]));
+            body->line_force = vec3_add(body->line_force, lines[l].pull[side]);
+            body->line_moment = vec3_add(body->line_moment, vec3_cross(arm, lines[l].pull[side]));
         }
     }
 }

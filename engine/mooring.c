@@ -77,6 +77,9 @@ void line_settle(Line *line, const WaterField *water)
     line->anchor_force = vec3(work->fx[0], work->fy[0], work->fz[0]);
     line->fairlead_force = vec3(work->fx[last], work->fy[last], work->fz[last]);
     line->touchdown = touchdown_length(line);
+    for (int side = 0; side < 2; side++)
+        line->pull[side] = work->end_load[side] =
+            line_end_load(work, line->position, line->velocity, line->tension, side);
 }
 
 bool line_take(const LineScene *scene, const WaterField *water, const int point[2],
@@ -213,7 +216,8 @@ SpecialNode line_special_node(const LineWork *work, const Vec3 *x, int node)
     return makeup_special_node(&work->makeup, node, place, elevation);
 }
 
-Vec3 line_end_shear(const LineWork *work, const Vec3 *x, int side)
+/// Shear of a line that bends, at its end [N].
+static Vec3 end_shear(const LineWork *work, const Vec3 *x, int side)
 {
     int i = side ? work->node_count - 2 : 1;
     if (!work->makeup.bends || work->node_count < 3) return vec3(0, 0, 0);
@@ -223,15 +227,28 @@ Vec3 line_end_shear(const LineWork *work, const Vec3 *x, int side)
     return force[side ? 2 : 0];
 }
 
-/// The line's pull on what holds an end: mean force on its half segment less what that half
-/// segment's own (and added) mass takes up.
-static Vec3 end_pull(const Line *line, int side, Vec3 gained, double duration)
+Vec3 line_end_load(const LineWork *work, const Vec3 *x, const Vec3 *v, const double *tension,
+                   int side)
+{
+    int node = side ? work->node_count - 1 : 0;
+    double *const *water = work->water_now;
+    SpecialNode end = line_special_node(work, x, node);
+    Vec3 relative = vec3_sub(vec3(water[0][node], water[1][node], water[2][node]), v[node]);
+    Vec3 acceleration = vec3(water[3][node], water[4][node], water[5][node]);
+    Vec3 pull = vec3_scale(end.q, side ? -tension[node - 1] : tension[0]);
+    Vec3 force = vec3_add(pull, line_drag(&end.sum, 1, end.q, relative));
+    force = vec3_add(force, line_water_inertia(&end.sum, 1, end.q, acceleration));
+    force.z += end.sum.buoyancy - end.sum.weight;
+    return vec3_add(force, end_shear(work, x, side));
+}
+
+/// What the mass and added mass of an end's half segment take up of the mean force on it [N].
+static Vec3 end_inertia(const Line *line, int side, Vec3 gained, double duration)
 {
     const LineWork *work = line->workspace;
     SpecialNode end = line_special_node(work, line->position, side ? line->node_count - 1 : 0);
-    Vec3 kept = line_inertia(line_mass_normal(&end.sum, 1, 1), line_mass_tangential(&end.sum, 1, 1),
-                             end.q, gained);
-    return vec3_scale(vec3_sub(work->end_force[side], kept), 1 / duration);
+    return line_inertia(line_mass_normal(&end.sum, 1, 1), line_mass_tangential(&end.sum, 1, 1),
+                        end.q, vec3_scale(gained, 1 / duration));
 }
 
 static void line_load(Line *line)
@@ -293,6 +310,31 @@ static bool report_sickness(const LineSickness *sick, Error *error)
                      line->sound_speed, line->step_limit);
 }
 
+/// Pulls and touchdown after a call. The pull on an end's holder is the mean force on its half
+/// segment less what that half segment's own inertia takes up; carried on, half the change of the
+/// load over the call is added, and the inertia, which belongs to the velocities' times half a step
+/// earlier, changes as it did last. Both sums telescope: over many steps no momentum is lost.
+static void finish_ends(Line *line, double duration)
+{
+    LineWork *work = line->workspace;
+    line->touchdown = touchdown_length(line);
+    for (int side = 0; side < 2; side++) {
+        int end = side ? line->node_count - 1 : 0;
+        if (line->stepper == LINE_STEPPER_RK2)
+            work->end_load[side] =
+                line_end_load(work, line->position, line->velocity, line->tension, side);
+        Vec3 gained = vec3_sub(line->velocity[end], work->end_velocity[side]);
+        Vec3 inertia = end_inertia(line, side, gained, duration);
+        Vec3 mean = vec3_scale(work->end_force[side], 1 / duration);
+        Vec3 load = vec3_sub(work->end_load[side], work->load_before[side]);
+        Vec3 change = vec3_sub(vec3_scale(load, 0.5), vec3_sub(inertia, work->end_inertia[side]));
+        Vec3 pull = vec3_sub(mean, inertia);
+        *(side ? &line->fairlead_force : &line->anchor_force) = pull;
+        line->pull[side] = vec3_add(pull, change);
+        work->end_inertia[side] = inertia;
+    }
+}
+
 bool net_advance(LineNet *net, const WaterField *water, const LineSpan *spans, Error *error)
 {
     double time = spans[0].time, duration = spans[0].duration;
@@ -307,22 +349,15 @@ bool net_advance(LineNet *net, const WaterField *water, const LineSpan *spans, E
             work->end_velocity[side] =
                 free ? line->velocity[side ? line->node_count - 1 : 0] : path->velocity[0];
             work->end_force[side] = vec3(0, 0, 0);
+            work->load_before[side] = work->end_load[side];
         }
     }
     LineSickness sick;
     bool good = net->lines[0]->stepper == LINE_STEPPER_RK2 ? advance_rk2(net, spans, &sick)
                                                            : net_step_bdf2(net, spans, &sick);
     if (!good) return report_sickness(&sick, error);
-    for (int l = 0; l < net->line_count; l++) {
-        Line *line = net->lines[l];
-        const LineWork *work = line->workspace;
-        int last = line->node_count - 1;
-        line->touchdown = touchdown_length(line);
-        line->anchor_force =
-            end_pull(line, 0, vec3_sub(line->velocity[0], work->end_velocity[0]), duration);
-        line->fairlead_force =
-            end_pull(line, 1, vec3_sub(line->velocity[last], work->end_velocity[1]), duration);
-    }
+    for (int l = 0; l < net->line_count; l++)
+        finish_ends(net->lines[l], duration);
     return true;
 }
 
@@ -364,7 +399,7 @@ double line_energy(const Line *line)
 
 /// What a saved line holds besides its arrays.
 typedef struct LineRest {
-    Vec3 fairlead_force, anchor_force;
+    Vec3 fairlead_force, anchor_force, pull[2], end_load[2], end_inertia[2];
     double largest_tension, touchdown, substeps;
     double parted_count, parted_last, parted_time;
     double fairlead_length;
@@ -386,6 +421,9 @@ void line_state_save(const Line *line, double *to)
     size_t n = (size_t)line->node_count;
     LineRest rest = {line->fairlead_force,
                      line->anchor_force,
+                     {line->pull[0], line->pull[1]},
+                     {work->end_load[0], work->end_load[1]},
+                     {work->end_inertia[0], work->end_inertia[1]},
                      line->largest_tension,
                      line->touchdown,
                      (double)line->substeps,
@@ -420,6 +458,9 @@ void line_state_restore(Line *line, const double *from)
            work->history_size * sizeof(double));
     line->fairlead_force = rest.fairlead_force;
     line->anchor_force = rest.anchor_force;
+    memcpy(line->pull, rest.pull, sizeof rest.pull);
+    memcpy(work->end_load, rest.end_load, sizeof rest.end_load);
+    memcpy(work->end_inertia, rest.end_inertia, sizeof rest.end_inertia);
     line->largest_tension = rest.largest_tension;
     line->touchdown = rest.touchdown;
     line->substeps = (long)rest.substeps;

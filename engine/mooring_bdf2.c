@@ -106,30 +106,6 @@ static void pose_step(Line *line, const LineSpan *span, double done, double h)
     line_water_at(work, fraction);
 }
 
-/// All that acts on an end's half segment, bed apart [N].
-static Vec3 end_load(const LineWork *work, const Vec3 *x, const Vec3 *v, const double *tension,
-                     int side)
-{
-    int node = side ? work->node_count - 1 : 0;
-    double *const *water = work->water_now;
-    SpecialNode end = line_special_node(work, x, node);
-    Vec3 relative = vec3_sub(vec3(water[0][node], water[1][node], water[2][node]), v[node]);
-    Vec3 acceleration = vec3(water[3][node], water[4][node], water[5][node]);
-    Vec3 pull = vec3_scale(end.q, side ? -tension[node - 1] : tension[0]);
-    Vec3 force = vec3_add(pull, line_drag(&end.sum, 1, end.q, relative));
-    force = vec3_add(force, line_water_inertia(&end.sum, 1, end.q, acceleration));
-    force.z += end.sum.buoyancy - end.sum.weight;
-    return vec3_add(force, line_end_shear(work, x, side));
-}
-
-/// Add `share` seconds of what acts on the ends now to the impulse of the call.
-static void add_end_loads(const LineWork *work, const Vec3 *x, const Vec3 *v, const double *tension,
-                          double share, Vec3 *impulse)
-{
-    for (int side = 0; side < 2; side++)
-        impulse[side] = vec3_mad(impulse[side], end_load(work, x, v, tension, side), share);
-}
-
 /// The iterate becomes the state, the state history.
 static void accept(Line *line, double h)
 {
@@ -176,26 +152,27 @@ Chain *line_bdf2_chain(const Line *line)
 
 void line_bdf2_forget(Line *line) { *history_of(line).step = 0; }
 
+/// The line's state has gone on by h: so has the impulse on its ends, by the trapezoidal rule.
+static void add_end_loads(Line *line, double h)
+{
+    LineWork *work = line->workspace;
+    for (int side = 0; side < 2; side++) {
+        Vec3 load = line_end_load(work, line->position, line->velocity, line->tension, side);
+        Vec3 sum = vec3_add(work->end_load[side], load);
+        work->end_force[side] = vec3_mad(work->end_force[side], sum, 0.5 * h);
+        work->end_load[side] = load;
+    }
+}
+
 /// One step of h, accepted by all lines when it has a solution.
 static bool net_step(LineNet *net, const LineSpan *spans, double done, double h)
 {
-    Vec3(*before)[2] = net->impulse;
-    for (int l = 0; l < net->line_count; l++) {
-        Line *line = net->lines[l];
-        LineWork *work = line->workspace;
-        line_water_at(work, done / spans[l].duration);
-        before[l][0] = before[l][1] = vec3(0, 0, 0);
-        add_end_loads(work, line->position, line->velocity, line->tension, 0.5 * h, before[l]);
-        pose_step(line, &spans[l], done, h);
-    }
+    for (int l = 0; l < net->line_count; l++)
+        pose_step(net->lines[l], &spans[l], done, h);
     if (!implicit_solve(net)) return false;
     for (int l = 0; l < net->line_count; l++) {
-        LineWork *work = net->lines[l]->workspace;
-        const Implicit *im = work->implicit;
         accept(net->lines[l], h);
-        add_end_loads(work, im->x, im->v, im->tension, 0.5 * h, before[l]);
-        for (int side = 0; side < 2; side++)
-            work->end_force[side] = vec3_add(work->end_force[side], before[l][side]);
+        add_end_loads(net->lines[l], h);
     }
     return true;
 }

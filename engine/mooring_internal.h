@@ -43,6 +43,9 @@ typedef struct LineWork {
     bool water_moves;     ///< false: still water, `water_now` need not change
     Vec3 end_force[2];    ///< time integral over the call: anchor, fairlead [N s]
     Vec3 end_velocity[2]; ///< at its begin [m/s]
+    Vec3 end_load[2];     ///< what acts on the half segments at the ends now, bed apart [N]
+    Vec3 load_before[2];  ///< the same at the call's begin [N]
+    Vec3 end_inertia[2];  ///< what the half segments took up in the last call [N]
     double *history;      ///< of the implicit stepper, saved with the state
     size_t history_size;  ///< [double]
     void *implicit;       ///< arrays of the implicit stepper
@@ -126,8 +129,9 @@ void line_wind(Line *line, double time);
 /// A node between unequal segments, next to a parted one or at an end; x: all nodes.
 SpecialNode line_special_node(const LineWork *work, const Vec3 *x, int node);
 
-/// Shear of a line that bends, at its end [N].
-Vec3 line_end_shear(const LineWork *work, const Vec3 *x, int side);
+/// All that acts on the half segment at an end, bed apart [N]; arrays: of all nodes, segments.
+Vec3 line_end_load(const LineWork *work, const Vec3 *x, const Vec3 *v, const double *tension,
+                   int side);
 
 /// One line of several to be brought to rest together, and a free point between them.
 typedef struct RelaxLine {
