@@ -118,7 +118,8 @@ static void choose_bodies_and_lines(const Scene *scene, Plan *plan, const Fill *
 {
     int bodies = scene->body_count, lines = scene->line_count;
     char freedoms[128];
-    bool moves = list_freedoms(scene, freedoms, sizeof freedoms), touch = contact_possible(scene);
+    bool moves = list_freedoms(scene, freedoms, sizeof freedoms),
+         touch = bodies && contact_possible(scene);
     set(plan, EFFECT_BODIES, bodies > 0, (size_t)MOVING_BYTES * (size_t)fill->body_count,
         bodies ? "bodies: %d, %d dummy particles" : "no bodies", bodies, fill->body_count);
     set(plan, EFFECT_BODY_MOTION, moves, 0, "%s", bodies ? freedoms : "no bodies");

@@ -103,7 +103,8 @@ static int fill_plane(const Box *box, Fill *fill, int i, int first)
         for (int k = 0; k < box->lattice.count[2]; k++) {
             Vec3 mean = mean_place(box, i, j, k), shift = vec3(0, 0, 0);
             if (box->waves) shift = waves_displacement(box->waves, mean, 0);
-            if (carve_hits(box->scene, box->plan, vec3_add(mean, shift))) continue;
+            if (box->scene->body_count && carve_hits(box->scene, box->plan, vec3_add(mean, shift)))
+                continue;
             if (first >= 0) write_fluid(box, fill, first + count, mean, shift);
             count++;
         }
@@ -212,7 +213,8 @@ static void fill_walls(const Scene *scene, const Plan *plan, Fill *fill)
     // Ring and piston slide along the fixed walls, which go on as far: a hole behind the corner
     // would draw the water in.
     bool flume = scene->domain.kind == DOMAIN_FLUME;
-    int apron = (int)ceil(waves_wall_reach(scene) / scene->fluid.spacing - 1e-6);
+    double reach = scene->waves.kind == WAVES_NONE ? 0 : waves_wall_reach(scene);
+    int apron = (int)ceil(reach / scene->fluid.spacing - 1e-6);
     int left = n + apron, right = flume ? n : left;
     if (ny && !flume) ny += apron;
     for (int i = -left; i < l.count[0] + right; i++)

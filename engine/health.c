@@ -19,7 +19,7 @@ void health_checkpoint(const Scene *scene, State *state)
     }
     c->time = state->time;
     c->step = state->step;
-    c->waves = state->waves;
+    if (c->waves) *c->waves = *state->waves;
     c->line_work = state->line_work;
     memcpy(c->bodies, state->bodies, (size_t)scene->body_count * sizeof(Body));
     memcpy(c->slammings, state->slammings, (size_t)scene->slamming_count * sizeof(Slamming));
@@ -33,29 +33,28 @@ void health_checkpoint(const Scene *scene, State *state)
 static void roll_back(const Scene *scene, State *state)
 {
     const Checkpoint *c = &state->checkpoint;
-    WaveTarget asked = state->waves.asked;
     state->time = c->time;
     state->step = c->step;
-    state->waves = c->waves;
     state->line_work = c->line_work;
-    waves_refresh(&state->waves);
     memcpy(state->bodies, c->bodies, (size_t)scene->body_count * sizeof(Body));
     memcpy(state->slammings, c->slammings, (size_t)scene->slamming_count * sizeof(Slamming));
     for (int l = 0; l < scene->line_count; l++)
         line_state_restore(&state->lines[l], c->lines[l]);
     memcpy(state->watches, c->watches, (size_t)scene->line_count * sizeof(LineWatch));
     state->backend->restore(state->particles, c->particles);
-    // a command given since the checkpoint stays in force
-    const WaveTarget *then = &c->waves.asked;
-    bool commanded = asked.height != then->height || asked.period != then->period ||
-                     asked.heading != then->heading;
-    if (scene->waves.kind != WAVES_NONE && commanded)
-        waves_command(&state->waves, scene, &asked, state->time);
+    // commands given since the checkpoint stay in force
     for (int l = 0; l < scene->line_count; l++) {
         const LineOrder *order = &state->orders[l], *before = &c->orders[l];
         bool wound = !isnan(order->length) && order->length != before->length;
         if (wound || order->cut != before->cut) step_order_line(scene, state, l);
     }
+    if (!state->waves) return;
+    const WaveTarget asked = state->waves->asked, *then = &c->waves->asked;
+    *state->waves = *c->waves;
+    waves_refresh(state->waves);
+    if (asked.height != then->height || asked.period != then->period ||
+        asked.heading != then->heading)
+        waves_command(state->waves, scene, &asked, state->time);
 }
 
 /// First violated limit as text; false when all is well.

@@ -132,6 +132,7 @@ static bool mesh_bodies(const Scene *scene, Plan *plan, Error *error)
 static bool hang_lines(const Scene *scene, Plan *plan, Error *error)
 {
     size_t count = (size_t)scene->line_count;
+    if (!count) return true;
     TRY(plan->lines = arena_take(&plan->arena, count, sizeof(LinePlan), "lines", error));
     WaterField water = {NULL,
                         NULL,
@@ -247,7 +248,7 @@ bool plan_build(const Scene *scene, const EngineOptions *options, Plan *plan, Er
     if (build(scene, plan, error)) {
         if (scene->domain.kind == DOMAIN_LINES)
             lines_warnings(scene, plan->warnings, sizeof plan->warnings);
-        else
+        else if (scene->waves.kind != WAVES_NONE)
             waves_warnings(scene, plan->warnings, sizeof plan->warnings);
         return true;
     }

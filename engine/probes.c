@@ -8,7 +8,7 @@ double probe_elevation(const Scene *scene, const State *state, int gauge)
     if (scene->domain.kind == DOMAIN_LINES)
         return scene->waves.kind == WAVES_NONE
                    ? 0
-                   : waves_elevation(&state->waves, g->x, g->y, state->time);
+                   : waves_elevation(state->waves, g->x, g->y, state->time);
     return state->backend->elevation(state->particles, g->x, g->y) - scene->fluid.level;
 }
 

@@ -54,6 +54,7 @@ void series_table(const Scene *scene, SeriesTable *table)
         add_columns(table, scene->slammings[i].name, SLAMMING_COLUMNS, COUNT_OF(SLAMMING_COLUMNS));
     for (int i = 0; i < scene->green_water_count; i++)
         add_columns(table, scene->green_waters[i].name, GREEN_COLUMNS, COUNT_OF(GREEN_COLUMNS));
+    if (scene->energy == ENERGY_NONE) return;
     EnergyColumn energy[ENERGY_COLUMNS_MAX];
     int energies = energy_columns(scene, NULL, energy);
     for (int i = 0; i < energies; i++)
@@ -94,7 +95,7 @@ static double lap(State *state, EffectId effect, double begin)
     return now;
 }
 
-static double *sample_probes(const Scene *scene, State *state, double *row)
+static void sample_probes(const Scene *scene, State *state, double *row)
 {
     double begin = step_clock();
     for (int i = 0; i < scene->gauge_count; i++)
@@ -114,12 +115,12 @@ static double *sample_probes(const Scene *scene, State *state, double *row)
         *row++ = water.height;
     }
     if (scene->green_water_count) begin = lap(state, EFFECT_GREEN_WATER, begin);
+    if (scene->energy == ENERGY_NONE) return;
     EnergyColumn energy[ENERGY_COLUMNS_MAX];
     int energies = energy_columns(scene, state, energy);
     for (int i = 0; i < energies; i++)
         *row++ = energy[i].value;
-    if (energies) lap(state, EFFECT_ENERGY, begin);
-    return row;
+    lap(state, EFFECT_ENERGY, begin);
 }
 
 void series_sample(const Scene *scene, const Plan *plan, State *state, double *row)

@@ -114,9 +114,9 @@ void snapshot_take(const Scene *scene, const Plan *plan, const State *state, Sna
     take_lines(state, snapshot);
     take_shares(plan, state, snapshot);
     if (snapshot->has_waves) {
-        snapshot->wave_asked = state->waves.asked;
-        snapshot->wave_now = waves_now(&state->waves, state->time);
-        snapshot->wave_changing = state->waves.active;
+        snapshot->wave_asked = state->waves->asked;
+        snapshot->wave_now = waves_now(state->waves, state->time);
+        snapshot->wave_changing = state->waves->active;
     }
     snapshot->health = state->health.status;
     memcpy(snapshot->health_message, state->health.message, sizeof snapshot->health_message);

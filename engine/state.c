@@ -36,7 +36,7 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     const double high[3] = {d->max.x, d->max.y, INFINITY};
     bool waves = scene->waves.kind != WAVES_NONE;
     bool ring = waves && d->kind == DOMAIN_BASIN, piston = waves && d->kind == DOMAIN_FLUME;
-    const double wall_reach = waves_wall_reach(scene);
+    const double wall_reach = waves ? waves_wall_reach(scene) : 0;
     for (int a = 0; a < 3; a++) {
         bool any = a == 1 && d->dimensions == 2;
         double reach = a < 2 ? wall_reach : 0; // water rides with ring and piston
@@ -96,6 +96,15 @@ static bool create_particles(const Scene *scene, const Plan *plan, State *state,
     return good;
 }
 
+static bool create_waves(const Scene *scene, State *state, Error *error)
+{
+    if (scene->waves.kind == WAVES_NONE) return true;
+    TRY(state->waves = arena_take(&state->arena, 1, sizeof(WaveState), "waves", error));
+    TRY(state->checkpoint.waves = arena_take(&state->arena, 1, sizeof(WaveState), "waves", error));
+    *state->waves = waves_create(scene);
+    return waves_take_sea(state->waves, scene, &state->arena, error);
+}
+
 static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State *state,
                                     Error *error)
 {
@@ -110,12 +119,12 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
         state->orders[l].length = NAN;
         state->orders[l].cut = CUT_NOWHERE;
     }
-    if (lines)
-        TRY(state->events = arena_take(&state->arena, 1, sizeof(LineEvents), "lines", error));
     TRY(state->slammings = arena_take(&state->arena, (size_t)scene->slamming_count,
                                       sizeof(Slamming), "slamming", error));
     for (int b = 0; b < scene->body_count; b++)
         state->bodies[b] = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
+    if (!lines) return true;
+    TRY(state->events = arena_take(&state->arena, 1, sizeof(LineEvents), "lines", error));
     WaterField water = step_water(scene, state);
     LineEnds ends[SCENE_LINES_MAX];
     for (int l = 0; l < scene->line_count; l++)
@@ -150,8 +159,10 @@ static bool create_checkpoint(const Scene *scene, State *state, Error *error)
 /// a bit cannot be timed while it runs.
 static bool place_and_measure(const Scene *scene, const Plan *plan, State *state, Error *error)
 {
-    Advance now = step_orders(scene, plan, state, 0);
-    state->backend->place(state->particles, &now);
+    if (plan->effects[EFFECT_MOVING_BOUNDARIES].active) {
+        Advance now = step_orders(scene, plan, state, 0);
+        state->backend->place(state->particles, &now);
+    }
     for (int b = 0; b < scene->body_count; b++)
         state->centres[b] = state->bodies[b].position;
     TRY(state->backend->forces(state->particles, state->centres, state->loads, error));
@@ -174,9 +185,7 @@ bool state_create(const Scene *scene, const Plan *plan, State **result, Error *e
     if (!state) return false;
     state->arena = arena;
     state->time_step = state->smallest_step = state->largest_step = plan->time_step;
-    if (scene->waves.kind != WAVES_NONE) state->waves = waves_create(scene);
-    if (waves_take_sea(&state->waves, scene, &state->arena, error) &&
-        create_particles(scene, plan, state, error) &&
+    if (create_waves(scene, state, error) && create_particles(scene, plan, state, error) &&
         create_bodies_and_lines(scene, plan, state, error) &&
         create_checkpoint(scene, state, error) && place_and_measure(scene, plan, state, error)) {
         *result = state;

@@ -28,7 +28,7 @@ typedef struct HealthRecord {
 typedef struct Checkpoint {
     double time; ///< NAN before the first one
     int64_t step;
-    WaveState waves;
+    WaveState *waves;
     double line_work;
     Body *bodies;
     double **lines; ///< line_state_save of each
@@ -47,8 +47,8 @@ typedef struct EnergyLevels {
 typedef struct State {
     double time; ///< simulated [s]
     int64_t step;
-    double time_step; ///< in use now [s]
-    WaveState waves;
+    double time_step;    ///< in use now [s]
+    WaveState *waves;    ///< NULL without waves
     Body *bodies;        ///< [scene->body_count]
     Mooring mooring;     ///< lines and the points that join them
     Line *lines;         ///< mooring.lines

@@ -49,8 +49,8 @@ WaterField step_water(const Scene *scene, const State *state)
     bool waves = scene->waves.kind != WAVES_NONE;
     WaterAtNodes at_nodes =
         scene->domain.kind == DOMAIN_LINES ? open_water_at_nodes : water_at_nodes;
-    WaterField water = {waves ? at_nodes : NULL, waves ? &state->waves : NULL, scene->fluid.level,
-                        scene->fluid.density,    scene->fluid.gravity,         scene->domain.min.z};
+    WaterField water = {waves ? at_nodes : NULL, waves ? state->waves : NULL, scene->fluid.level,
+                        scene->fluid.density,    scene->fluid.gravity,        scene->domain.min.z};
     return water;
 }
 
@@ -125,7 +125,7 @@ static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State 
     bool basin = plan->effects[EFFECT_ZONE].active, beach = plan->effects[EFFECT_BEACH].active;
     if (!basin && !beach) return zone;
     zone.width = plan->zone_width;
-    zone.time_scale = 0.1 * state->waves.asked.period;
+    zone.time_scale = 0.1 * state->waves->asked.period;
     zone.side_min[0] = basin ? d->min.x : -1e30;
     zone.side_max[0] = d->max.x;
     zone.side_min[1] = basin && d->dimensions == 3 ? d->min.y : -1e30;
@@ -133,7 +133,7 @@ static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State 
     zone.target = basin ? zone_velocity : NULL;
     // a sea's target costs as much as the particle itself; ten steps are still short beside tau
     double steps = zone.time_scale / plan->time_step / 10;
-    zone.every = state->waves.sea && steps > 1 ? (int)mind(steps, SEA_EVERY) : 1;
+    zone.every = state->waves->sea && steps > 1 ? (int)mind(steps, SEA_EVERY) : 1;
     return zone;
 }
 
@@ -149,7 +149,7 @@ Advance step_orders(const Scene *scene, const Plan *plan, State *state, double d
     advance.step = state->step;
     advance.dt = dt;
     advance.poses = state->poses;
-    advance.waves = &state->waves;
+    advance.waves = state->waves;
     advance.ring = plan->effects[EFFECT_RING].active ? move_ring : NULL;
     advance.piston = plan->effects[EFFECT_PISTON].active ? piston_move : NULL;
     advance.zone = zone_of(scene, plan, state);
@@ -185,7 +185,7 @@ static bool step_once(const Scene *scene, const Plan *plan, State *state, double
     state->step++;
     if (scene->waves.kind != WAVES_NONE) {
         double lap = step_clock();
-        waves_update(&state->waves, scene, state->time);
+        waves_update(state->waves, scene, state->time);
         state->host_seconds[wave_maker(plan)] += step_clock() - lap;
     }
     return true;
@@ -254,7 +254,8 @@ bool state_command(const Scene *scene, State *state, const Command *command, Err
 {
     WaveTarget target;
     if (command->line[0]) return command_line(scene, state, command, error);
-    TRY(command_check(scene, command, &state->waves.asked, &target, error));
-    waves_command(&state->waves, scene, &target, state->time);
+    const WaveTarget *last = state->waves ? &state->waves->asked : NULL;
+    TRY(command_check(scene, command, last, &target, error));
+    waves_command(state->waves, scene, &target, state->time);
     return true;
 }

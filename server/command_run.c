@@ -115,7 +115,7 @@ static bool apply_commands(Run *run, Error *error)
             return error_set(error, reason.code, "%.200s: command at %.9g s: %.500s",
                              run->options->commands, due->time, reason.message);
         char line[1024];
-        journal_format_command(state->time, &due->command, &state->waves.asked, line, sizeof line);
+        journal_format_command(state->time, &due->command, &state->waves->asked, line, sizeof line);
         TRY(recorder_journal(&run->recorder, line, error));
     }
     return true;

@@ -197,9 +197,9 @@ static void fill_from_state(const Session *session, SessionStatus *status)
                                         .parted = state->lines[l].parted_count > 0};
     if (session->scene->waves.kind == WAVES_NONE) return;
     status->has_waves = true;
-    status->wave_asked = state->waves.asked;
-    status->wave_now = waves_now(&state->waves, state->time);
-    status->wave_changing = state->waves.active || state->waves.has_queued;
+    status->wave_asked = state->waves->asked;
+    status->wave_now = waves_now(state->waves, state->time);
+    status->wave_changing = state->waves->active || state->waves->has_queued;
 }
 
 static void publish_status(Session *session)
@@ -328,8 +328,8 @@ static bool carry_out_command(Session *session, const Command *command, Error *e
     if (session->run_state == RUN_FAILED || !state)
         return error_set(error, ERROR_INPUT, "the simulation has failed: reset it first");
     TRY(state_command(session->scene, state, command, error));
-    const WaveTarget *asked = &state->waves.asked;
-    if (state->waves.has_queued) asked = &state->waves.queued;
+    const WaveTarget *asked = &state->waves->asked;
+    if (state->waves->has_queued) asked = &state->waves->queued;
     char line[1024], text[200];
     journal_format_command(state->time, command, asked, line, sizeof line);
     journal(session, line);

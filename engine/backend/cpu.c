@@ -47,6 +47,23 @@ static void place_particles(Backend *b, const ParticleStart *start)
     }
 }
 
+/// Moving dummies and all that they need.
+static bool take_moving(Backend *b, int count, Arena *arena, Error *error)
+{
+    ParticleSet *m = &b->moving;
+    TRY(set_create(m, &b->grid, count, MOVING_FIELDS, arena, error));
+    size_t slots = (size_t)m->slot_capacity;
+    for (int a = 0; a < 3; a++) {
+        TRY(m->rate[a] = arena_take(arena, slots, sizeof(float), "particles.rate", error));
+        TRY(m->target[a] = arena_take(arena, slots, sizeof(int32_t), "particles.target", error));
+    }
+    TRY(list_create(&b->fluid_moving, &b->fluid, arena, error));
+    TRY(list_create(&b->moving_fluid, m, arena, error));
+    TRY(b->moving_reference = arena_take(arena, (size_t)count, sizeof(Vec3), "references", error));
+    TRY(b->moving_owner = arena_take(arena, (size_t)count, sizeof(int16_t), "owners", error));
+    return true;
+}
+
 static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Error *error)
 {
     int moving = 0;
@@ -54,30 +71,22 @@ static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Er
         moving += start->dummy_owner[i] != OWNER_FIXED;
     int fixed = start->dummy_count - moving;
     TRY(set_create(&b->fluid, &b->grid, start->fluid_count, FLUID_FIELDS, arena, error));
-    TRY(set_create(&b->fixed, &b->grid, fixed, 0, arena, error));
-    TRY(set_create(&b->moving, &b->grid, moving, MOVING_FIELDS, arena, error));
+    if (fixed) TRY(set_create(&b->fixed, &b->grid, fixed, 0, arena, error));
+    if (moving) TRY(take_moving(b, moving, arena, error));
     int slots = b->fluid.slot_capacity;
     slots = slots > b->fixed.slot_capacity ? slots : b->fixed.slot_capacity;
     slots = slots > b->moving.slot_capacity ? slots : b->moving.slot_capacity;
     TRY(scratch_create(&b->scratch, &b->grid, slots, b->setup.threads, arena, error));
-    size_t moving_slots = moving ? (size_t)b->moving.slot_capacity : 0;
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < 3; a++)
         b->fluid.rate[a] = (float *)b->scratch.slot[a];
-        TRY(b->moving.rate[a] =
-                arena_take(arena, moving_slots, sizeof(float), "particles.rate", error));
-        TRY(b->moving.target[a] =
-                arena_take(arena, moving_slots, sizeof(int32_t), "particles.target", error));
-    }
     TRY(rows_create(&b->rows, &b->grid, arena, error));
     TRY(b->meet = arena_take(arena, (size_t)(b->grid.slab_count + 1) * (size_t)(b->grid.blocks + 2),
                              1, "slabs", error));
     TRY(list_create(&b->fluid_fluid, &b->fluid, arena, error));
-    TRY(list_create(&b->fluid_fixed, &b->fluid, arena, error));
-    TRY(list_create(&b->fluid_moving, &b->fluid, arena, error));
-    TRY(list_create(&b->fixed_fluid, &b->fixed, arena, error));
-    TRY(list_create(&b->moving_fluid, &b->moving, arena, error));
-    TRY(b->moving_reference = arena_take(arena, (size_t)moving, sizeof(Vec3), "references", error));
-    TRY(b->moving_owner = arena_take(arena, (size_t)moving, sizeof(int16_t), "owners", error));
+    if (fixed) {
+        TRY(list_create(&b->fluid_fixed, &b->fluid, arena, error));
+        TRY(list_create(&b->fixed_fluid, &b->fixed, arena, error));
+    }
     return true;
 }
 
@@ -141,8 +150,10 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
         (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);
     b->table = sweep_table_choose();
     b->first_step = true;
-    set_sort(&b->fixed, &b->grid, &b->scratch);
-    set_boxes(&b->fixed, 0, b->fixed.cluster_count);
+    if (b->fixed.count) {
+        set_sort(&b->fixed, &b->grid, &b->scratch);
+        set_boxes(&b->fixed, 0, b->fixed.cluster_count);
+    }
     b->table->update_pressure(b);
     *backend = b;
     return true;
@@ -353,6 +364,7 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
 static size_t set_transfer(ParticleSet *set, char *to, const char *from)
 {
     size_t size = 0, item = sizeof(int32_t);
+    if (!set->count) return 0;
 #define MOVE(pointer, room, used)                                                                  \
     do {                                                                                           \
         if (to) memcpy(to + size, (pointer), (used));                                              \

@@ -46,11 +46,13 @@ void rows_note_rest(Rows *rows, const ParticleSet *fixed, int row)
 {
     static const VelocitySpan rest = {{0, 0, 0}, {0, 0, 0}};
     span_clear(&rows->span[row]);
-    if (fixed->row_begin[row] < fixed->row_begin[row + 1]) span_add(&rows->span[row], &rest);
+    if (fixed->count && fixed->row_begin[row] < fixed->row_begin[row + 1])
+        span_add(&rows->span[row], &rest);
 }
 
 void rows_note_velocity(Rows *rows, const ParticleSet *set, int row)
 {
+    if (!set->count) return;
     VelocitySpan *span = &rows->span[row];
     int begin = set->row_begin[row] * CLUSTER, end = set->row_begin[row + 1] * CLUSTER;
     for (int a = 0; a < 3; a++) {

@@ -180,7 +180,9 @@ bool state_create(const Scene *scene, const Plan *plan, State **state, Error *er
     (*state)->lines = &line;
     (*state)->time_step = plan->time_step;
     (*state)->smallest_step = (*state)->largest_step = plan->time_step;
-    (*state)->waves.asked = scene->waves.initial;
+    static WaveState waves;
+    (*state)->waves = &waves;
+    waves.asked = scene->waves.initial;
     return true;
 }
 
@@ -235,8 +237,8 @@ bool state_command(const Scene *scene, State *state, const Command *command, Err
         state->orders[0].length = command->line_length;
         return true;
     }
-    TRY(command_check(scene, command, &state->waves.asked, &target, error));
-    state->waves.asked = target;
+    TRY(command_check(scene, command, &state->waves->asked, &target, error));
+    state->waves->asked = target;
     return true;
 }
 
@@ -266,7 +268,7 @@ bool snapshot_create(const Scene *scene, const Plan *plan, Snapshot *snapshot, E
 
 void snapshot_take(const Scene *scene, const Plan *plan, const State *state, Snapshot *snapshot)
 {
-    const WaveTarget *wave = &state->waves.asked;
+    const WaveTarget *wave = &state->waves->asked;
     snapshot->time = state->time;
     snapshot->step = state->step;
     snapshot->time_step = state->time_step;
@@ -305,9 +307,9 @@ void series_table(const Scene *scene, SeriesTable *table)
 void series_sample(const Scene *scene, const Plan *plan, State *state, double *row)
 {
     row[0] = state->time;
-    row[1] = elevation(&state->waves.asked, 0, 0, state->time);
+    row[1] = elevation(&state->waves->asked, 0, 0, state->time);
     row[2] = 100 + 10 * row[1];
-    row[3] = elevation(&state->waves.asked, 2, 0, state->time);
+    row[3] = elevation(&state->waves->asked, 2, 0, state->time);
 }
 
 void journal_format_start(const Scene *scene, const Plan *plan, char *text, int size)

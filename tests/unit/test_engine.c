@@ -23,17 +23,17 @@ TEST(a_command_moves_the_ring_within_one_step)
     Command command = command_default();
     command.wave_height = 0.06;
     Vec3 mean = vec3(-2.2, 0, -0.1), before, after;
-    WaveState untouched = run->state->waves;
+    WaveState untouched = *run->state->waves;
     CHECK(state_command(&run->scene, run->state, &command, &error));
-    CHECK(run->state->waves.asked.height == 0.06);
+    CHECK(run->state->waves->asked.height == 0.06);
     advance_to(run, run->state->time + 2 * run->plan.time_step);
     before = waves_displacement(&untouched, mean, run->state->time);
-    after = waves_displacement(&run->state->waves, mean, run->state->time);
+    after = waves_displacement(run->state->waves, mean, run->state->time);
     CHECK(vec3_norm(vec3_sub(before, after)) > 0);
     command.wave_height = 0.3;
     CHECK(!state_command(&run->scene, run->state, &command, &error));
     CHECK_CONTAINS(error.message, "0.2");
-    CHECK(run->state->waves.asked.height == 0.06);
+    CHECK(run->state->waves->asked.height == 0.06);
     finish(run);
 }
 
