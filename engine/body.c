@@ -108,6 +108,8 @@ Body body_create(const BodyScene *scene, const BodyGeometry *geometry)
         else if (freedom->kind != FREEDOM_FIXED && !(scene->hold_time > 0))
             motion.rate[i] = scene->initial_velocity[i];
     }
+    body.motion = geometry->motion;
+    if (body.motion) motion_add(body.motion, 0, motion.value, motion.rate);
     body_place(&body, &motion);
     return body;
 }
@@ -158,6 +160,7 @@ static Imposed imposed_at(const Body *body, const BodyScene *scene, bool held, d
         else if (held)
             imposed.kind[i] = FREEDOM_FIXED;
     }
+    if (body->motion) motion_add(body->motion, end, imposed.value, imposed.rate);
     return imposed;
 }
 

@@ -25,8 +25,9 @@ typedef struct Body {
     Quat reference_attitude;
     Vec3 centre_of_gravity; ///< geometry axes [m]
     double mass;
-    double inertia[3][3]; ///< geometry axes, about the centre of gravity [kg m^2]
-    bool moving;          ///< any degree of freedom that is not fixed
+    double inertia[3][3];      ///< geometry axes, about the centre of gravity [kg m^2]
+    bool moving;               ///< any degree of freedom that is not fixed
+    const MotionTable *motion; ///< added to prescribed freedoms; NULL = none. Borrowed
 } Body;
 
 /// Motions as a naval engineer reads them: surge, sway, heave [m] along the axes of the initial

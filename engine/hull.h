@@ -6,6 +6,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/portable.h"
+#include "motion.h"
 #include "scene.h"
 
 typedef struct TriangleMesh {
@@ -49,7 +50,8 @@ typedef struct BodyGeometry {
     double mass;            ///< [kg]
     double inertia[3][3];   ///< about the centre of gravity, geometry axes [kg m^2]
     Hydrostatics hydrostatics;
-    bool floats; ///< mesh reaches into the water at its reference pose
+    bool floats;               ///< mesh reaches into the water at its reference pose
+    const MotionTable *motion; ///< of bodies[].motion; NULL without
 } BodyGeometry;
 
 /// Read STL (ASCII, binary) or OBJ, weld vertices, scale. Errors name the file (and line).

@@ -250,6 +250,11 @@ bool body_geometry_create(const Scene *scene, int index, Arena *arena, BodyGeome
                                        (const double(*)[3])g.inertia, fluid->level, fluid->density,
                                        fluid->gravity);
     g.floats = g.hydrostatics.draft > 0;
+    if (setting.body->motion_path[0]) {
+        MotionTable *motion;
+        TRY(motion_load(setting.body->motion_path, arena, &motion, error));
+        g.motion = motion;
+    }
     *geometry = g;
     return true;
 }

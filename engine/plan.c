@@ -40,6 +40,12 @@ static void choose_sound_speed(const Scene *scene, Plan *plan)
             if (v > speed) what = "speed of a body";
             speed = maxd(speed, v);
         }
+    for (int b = 0; b < scene->body_count; b++) {
+        const MotionTable *motion = plan->bodies[b].geometry.motion;
+        if (!motion || motion->largest_speed <= speed) continue;
+        speed = motion->largest_speed;
+        what = "speed of a body";
+    }
     plan->largest_speed = speed;
     plan->sound_speed = fluid->sound_speed_ratio * speed;
     snprintf(plan->sound_speed_because, sizeof plan->sound_speed_because,
@@ -86,6 +92,8 @@ static void choose_time_step(const Scene *scene, Plan *plan)
 /// Steps in the shortest prescribed or wave period, where lines are all that is stepped: at that
 /// many the implicit step is right to 0.5 % of a snap's peak (docs/mooring.md).
 static const double STEPS_PER_PERIOD = 2000;
+/// (chosen) Steps between two rows of a body's motion.
+static const double STEPS_PER_ROW = 4;
 
 /// Lines alone: the given step, or a fine part of the shortest period that divides the time between
 /// samples, so that samples fall on the times asked for.
@@ -97,9 +105,16 @@ static void choose_lines_step(const Scene *scene, Plan *plan)
         for (int f = 0; f < 6; f++)
             if (scene->bodies[b].freedoms[f].kind == FREEDOM_PRESCRIBED)
                 shortest = mind(shortest, scene->bodies[b].freedoms[f].period);
-    plan->time_step = interval / ceil(maxd(1, interval * STEPS_PER_PERIOD / shortest) - 1e-9);
+    double step = shortest / STEPS_PER_PERIOD;
+    for (int b = 0; b < scene->body_count; b++) {
+        const MotionTable *motion = plan->bodies[b].geometry.motion;
+        if (motion) step = mind(step, motion->shortest / STEPS_PER_ROW);
+    }
+    plan->time_step = interval / ceil(maxd(1, interval / step) - 1e-9);
     snprintf(plan->time_step_limit, sizeof plan->time_step_limit, "%s",
-             isinf(shortest) ? "outputs.series_interval_s" : "a 2000th of the shortest period");
+             isinf(step)                          ? "outputs.series_interval_s"
+             : step < shortest / STEPS_PER_PERIOD ? "a quarter of a row of a body's motion"
+                                                  : "a 2000th of the shortest period");
     if (isnan(scene->lines_step)) return;
     plan->time_step = scene->lines_step;
     snprintf(plan->time_step_limit, sizeof plan->time_step_limit, "domain.time_step_s");
@@ -218,9 +233,9 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
     plan->zone_width = scene->waves.kind == WAVES_NONE ? 0 : waves_zone_width(scene);
     plan->pair_mask = (scene->fluid.alpha > 0 ? PAIR_VISCOSITY : 0) |
                       (scene->fluid.delta > 0 ? PAIR_DIFFUSION : 0);
-    choose_sound_speed(scene, plan);
     effects_name(plan->effects);
     TRY(mesh_bodies(scene, plan, error));
+    choose_sound_speed(scene, plan);
     TRY(hang_lines(scene, plan, error));
     choose_time_step(scene, plan);
     Fill fill = {0};

@@ -172,10 +172,11 @@ typedef struct BodyScene {
     double inertia[6];      ///< xx yy zz xy xz yz [kg m^2] about the centre of gravity; NANs = not
                             ///< given (then radii, else a homogeneous body)
     Freedom freedoms[6];    ///< surge sway heave roll pitch yaw
-    double initial_offset[6];   ///< added to the reference pose at t = 0 [m], [rad]
-    double initial_velocity[6]; ///< [m/s], [rad/s]
-    double hold_time;           ///< held at its initial pose for this long [s]
-    double colour[3];           ///< for pictures, 0..1
+    char motion_path[SCENE_PATH_SIZE]; ///< table that prescribes all six; "" = none
+    double initial_offset[6];          ///< added to the reference pose at t = 0 [m], [rad]
+    double initial_velocity[6];        ///< [m/s], [rad/s]
+    double hold_time;                  ///< held at its initial pose for this long [s]
+    double colour[3];                  ///< for pictures, 0..1
 } BodyScene;
 
 typedef enum PointKind {

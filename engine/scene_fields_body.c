@@ -114,6 +114,7 @@ static const JsonField BODY_FIELDS[] = {
     {"radii_of_gyration_m", FIELD_NUMBERS, IN_BODY(radii_of_gyration), LENGTH_UP_TO(1000), .count_min = 3, .count_max = 3},
     {"inertia_kgm2", FIELD_NUMBERS, IN_BODY(inertia), SYMMETRIC(1e15, "kg m2"), .count_min = 3, .count_max = 6},
     {"freedoms", FIELD_CUSTOM, IN_BODY(freedoms), .table = &FREEDOMS_TABLE, .read = read_freedoms},
+    {"motion", FIELD_TEXT, IN_BODY(motion_path), .count_max = SCENE_PATH_SIZE},
     {"initial_offset", FIELD_OBJECT, IN_BODY(initial_offset), .table = &OFFSET_TABLE},
     {"initial_velocity", FIELD_OBJECT, IN_BODY(initial_velocity), .table = &VELOCITY_TABLE},
     {"hold_s", FIELD_NUMBER, IN_BODY(hold_time), .max = 10000, .unit = "s"},

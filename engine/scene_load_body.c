@@ -139,19 +139,35 @@ static bool check_motion(const JsonReader *reader, const JsonValue *object, cons
     return true;
 }
 
-/// A relative mesh path starts at the case's folder, wherever the program is called.
-static bool resolve_mesh(const JsonReader *reader, const JsonValue *object, const char *where,
-                         BodyScene *body)
+/// A relative path starts at the case's folder, wherever the program is called.
+static bool resolve_path(const JsonReader *reader, const JsonValue *object, const char *where,
+                         const char *key, char path[SCENE_PATH_SIZE])
 {
     const char *slash = strrchr(reader->file, '/');
     char given[SCENE_PATH_SIZE];
-    memcpy(given, body->mesh_path, sizeof given);
-    if (body->shape != BODY_MESH || given[0] == '/' || !slash) return true;
+    memcpy(given, path, sizeof given);
+    if (!given[0] || given[0] == '/' || !slash) return true;
     int folder = (int)(slash - reader->file + 1);
-    int length = snprintf(body->mesh_path, SCENE_PATH_SIZE, "%.*s%s", folder, reader->file, given);
-    if (length >= SCENE_PATH_SIZE)
-        REFUSE("mesh", "with the case's folder must have < %d characters", SCENE_PATH_SIZE);
-    return true;
+    int length = snprintf(path, SCENE_PATH_SIZE, "%.*s%s", folder, reader->file, given);
+    if (length < SCENE_PATH_SIZE) return true;
+    char at[JSON_PATH_SIZE];
+    snprintf(at, sizeof at, "%.120s.%s", where, key);
+    return table_refuse(reader, at, tree_member(object, key),
+                        "with the case's folder must have < %d characters", SCENE_PATH_SIZE);
+}
+
+/// A table prescribes every freedom.
+static bool take_motion(const JsonReader *reader, const JsonValue *object, const char *where,
+                        BodyScene *body)
+{
+    if (!body->motion_path[0]) return true;
+    if (tree_member(object, "freedoms"))
+        REFUSE("motion", "must not be given beside freedoms: it prescribes all six");
+    for (int i = 0; i < 6; i++) {
+        body->freedoms[i].kind = FREEDOM_PRESCRIBED;
+        body->freedoms[i].period = INFINITY;
+    }
+    return resolve_path(reader, object, where, "motion", body->motion_path);
 }
 
 bool case_finish_body(const JsonReader *reader, const JsonValue *object, const char *where,
@@ -162,8 +178,9 @@ bool case_finish_body(const JsonReader *reader, const JsonValue *object, const c
     if (is_plane(reader)) body->size.y = body->length = body->breadth = 1;
     if (body->shape == BODY_WIGLEY && body->draft_design > body->size.z)
         REFUSE("draft_design_m", "must be > 0 and <= %.9g m (the depth in size_m)", body->size.z);
+    TRY(take_motion(reader, object, where, body));
     TRY(check_motion(reader, object, where, body));
     TRY(check_placement(reader, object, where, body));
     TRY(check_inertia(reader, object, where, body));
-    return resolve_mesh(reader, object, where, body);
+    return resolve_path(reader, object, where, "mesh", body->mesh_path);
 }

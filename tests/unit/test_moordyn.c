@@ -122,6 +122,61 @@ TEST(a_driven_line_without_water_snaps_as_the_reference)
     plan_destroy(&plan);
 }
 
+/// Largest tension of the steel wire between 2 and 2.9 s, its fairlead driven as `body` says.
+static double driven_peak(const char *body)
+{
+    char text[900], path[200];
+    snprintf(
+        text, sizeof text,
+        "{\"domain\": {\"kind\": \"lines\", \"time_step_s\": 0.0005}, \"moordyn_file\": "
+        "\"%s/tests/data/mooring/moordyn/c3_ss304_heave_snap_N20.txt\", \"moordyn_body\": \"v\","
+        "\"bodies\": [{\"name\": \"v\", \"shape\": \"box\", \"size_m\": [0.1, 0.1, 0.1],"
+        "\"position_m\": [0.398, 0, -0.08], \"mass_kg\": 1, %s}]}",
+        SOURCE_DIR, body);
+    snprintf(path, sizeof path, "%s", written("driven.json", text));
+    EngineOptions options = {.threads = 1, .backend = "auto"};
+    Plan plan;
+    State *state = NULL;
+    bool good = scene_load(path, NULL, 0, &scene, &error) &&
+                plan_build(&scene, &options, &plan, &error) &&
+                state_create(&scene, &plan, &state, &error);
+    unlink(path);
+    if (!good) printf("  %s\n", error.message);
+    CHECK(good);
+    double peak = 0;
+    while (good && state->time < 2.9) {
+        CHECK(step_advance(&scene, &plan, state, &error));
+        if (state->time > 2) peak = maxd(peak, state->lines[0].tension[19]);
+    }
+    if (good) {
+        state_destroy(state);
+        plan_destroy(&plan);
+    }
+    return peak;
+}
+
+TEST(a_table_of_motion_drives_as_the_formula_it_samples)
+{
+    char table[200], body[300];
+    snprintf(table, sizeof table, "%s", written("drive.csv", ""));
+    FILE *stream = fopen(table, "w");
+    fprintf(stream, "# a comment\nt_s, heave_m\n");
+    for (int i = 0; i <= 300; i++) {
+        double t = 0.01 * i, ramp = t < 1 ? 0.5 * (1 - cos(PI * t)) : 1;
+        fprintf(stream, "%.9g, %.12g\n", t, ramp * 0.03 * sin(2 * PI * t));
+    }
+    fclose(stream);
+    snprintf(body, sizeof body, "\"motion\": \"%s\"", table);
+    double by_table = driven_peak(body);
+    double by_formula =
+        driven_peak("\"freedoms\": {\"others\": \"fixed\", \"heave\": {\"prescribed\": "
+                    "{\"amplitude_m\": 0.03, \"period_s\": 1, \"ramp_s\": 1}}}");
+    printf("  %.2f N by table, %.2f N by formula\n", by_table, by_formula);
+    CHECK(by_formula > 900);
+    CHECK_NEAR(by_table, by_formula, 0.002 * by_formula);
+    unlink(table);
+}
+
 // ---- the format
 // -----------------------------------------------------------------------------------
 
