@@ -7,6 +7,7 @@
 
 #include "contact.h"
 #include "slamming.h"
+#include "wave_quality.h"
 
 /// Bytes that one more particle of each set takes: its slots, the checkpoint, its share of the
 /// lists of neighbours; and what every run takes. Measured: test_memory compares.
@@ -139,6 +140,11 @@ static void choose_probes(const Scene *scene, Plan *plan, const Fill *fill)
     static const char *const energies[] = {"is none", "is levels", "is budget: sweeps run thrice"};
     size_t works = (size_t)WORKS_BYTES * (size_t)fill->fluid_count;
     set_probe(plan, EFFECT_GAUGES, scene->gauge_count, 0, "gauges");
+    bool quality = wave_quality_asked(scene);
+    set(plan, EFFECT_WAVE_QUALITY, quality, 0, "%s",
+        !quality                       ? "no waves, probes.wave_quality or waves.gain"
+        : scene->waves.gain.gauge >= 0 ? "waves.gain"
+                                       : "probes.wave_quality");
     set_probe(plan, EFFECT_PRESSURE_PROBES, scene->pressure_probe_count, 0, "pressure");
     set_probe(plan, EFFECT_RUN_UP, scene->run_up_count, 0, "run_up");
     set_probe(plan, EFFECT_SLAMMING, scene->slamming_count,

@@ -20,6 +20,7 @@ void health_checkpoint(const Scene *scene, State *state)
     c->time = state->time;
     c->step = state->step;
     if (c->waves) *c->waves = *state->waves;
+    if (c->quality) *c->quality = *state->quality;
     c->line_work = state->line_work;
     memcpy(c->bodies, state->bodies, (size_t)scene->body_count * sizeof(Body));
     memcpy(c->slammings, state->slammings, (size_t)scene->slamming_count * sizeof(Slamming));
@@ -48,6 +49,7 @@ static void roll_back(const Scene *scene, State *state)
         bool wound = !isnan(order->length) && order->length != before->length;
         if (wound || order->cut != before->cut) step_order_line(scene, state, l);
     }
+    if (c->quality) *state->quality = *c->quality;
     if (!state->waves) return;
     const WaveTarget asked = state->waves->asked, *then = &c->waves->asked;
     *state->waves = *c->waves;

@@ -107,12 +107,20 @@ typedef struct Focus {
     double time; ///< [s]
 } Focus;
 
+/// A slow gain on the incident wave (wave_quality.h).
+typedef struct WaveGain {
+    int gauge;      ///< index of the gauge whose wave is to be as asked; -1 = none
+    double largest; ///< bound; one over it is the smallest [-]
+    char gauge_name[SCENE_NAME_SIZE]; ///< as the file says it
+} WaveGain;
+
 typedef struct Waves {
     WaveKind kind;
     WaveTheory theory;
     Spectrum spectrum; ///< irregular, focused
     Focus focus;       ///< focused
-    int piston_order;  ///< flume: 1, or 2 with the piston's own second harmonic
+    WaveGain gain;
+    int piston_order; ///< flume: 1, or 2 with the piston's own second harmonic
     WaveTarget initial;
     WaveStart start;
     double ramp_time;     ///< time to grow from rest [s] (ramp start)
@@ -337,6 +345,8 @@ typedef struct Scene {
     PointScene points[SCENE_POINTS_MAX];
     int gauge_count;
     GaugeScene gauges[SCENE_GAUGES_MAX];
+    int quality_gauge_count; ///< 0 or 3
+    int quality_gauges[3];   ///< by whose waves quality is judged
     int pressure_probe_count;
     PressureProbeScene pressure_probes[SCENE_PRESSURE_PROBES_MAX];
     int run_up_count;

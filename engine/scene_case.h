@@ -14,10 +14,11 @@ typedef enum MoordynAxes {
 /// The scene with what only the file knows.
 typedef struct CaseFile {
     Scene scene;
-    char schema[256];       ///< "$schema", for editors
-    double basin_depth;     ///< [m]; NAN = min_m and max_m are given instead
-    double basin_length;    ///< [m]
-    double basin_breadth;   ///< [m]
+    char schema[256];                       ///< "$schema", for editors
+    char quality_names[3][SCENE_NAME_SIZE]; ///< gauges of probes.wave_quality
+    double basin_depth;                     ///< [m]; NAN = min_m and max_m are given instead
+    double basin_length;                    ///< [m]
+    double basin_breadth;                   ///< [m]
     double basin_freeboard; ///< [m]; NAN = BASIN_FREEBOARD_RATIO of the largest wave height
     char moordyn_path[SCENE_PATH_SIZE]; ///< as the case says it; "" = none
     int moordyn_body;                   ///< what its coupled points ride on; -1 = earth
@@ -47,6 +48,9 @@ bool case_join_moordyn(const JsonReader *reader, const JsonValue *root, CaseFile
 
 /// Lengths of lines that are given by their tension (scene_pretension.c); after all checks.
 bool case_resolve_pretension(const JsonReader *reader, Scene *scene);
+
+/// Gauges by the names that waves.gain and probes.wave_quality give.
+bool case_find_gauges(const JsonReader *reader, CaseFile *draft);
 
 /// Values that follow from others: the basin's corners, limits of live changes, ramp.
 bool case_resolve(const JsonReader *reader, CaseFile *draft);

@@ -173,3 +173,29 @@ bool case_check_probes(const JsonReader *reader, const Scene *scene)
     }
     return true;
 }
+
+/// Index of a gauge by its name.
+static bool find_gauge(const JsonReader *reader, const Scene *scene, const char *where,
+                       const char *name, int *index)
+{
+    for (*index = 0; *index < scene->gauge_count; ++*index)
+        if (strcmp(scene->gauges[*index].name, name) == 0) return true;
+    return table_refuse(reader, where, NULL, "\"%s\" must be the name of one of probes.gauges",
+                        name);
+}
+
+bool case_find_gauges(const JsonReader *reader, CaseFile *draft)
+{
+    static const char *const words[] = {"first", "second", "third"};
+    Scene *scene = &draft->scene;
+    WaveGain *gain = &scene->waves.gain;
+    if (gain->gauge_name[0])
+        TRY(find_gauge(reader, scene, "waves.gain.gauge", gain->gauge_name, &gain->gauge));
+    for (int i = 0; i < 3 && draft->quality_names[0][0]; i++) {
+        char at[JSON_PATH_SIZE];
+        snprintf(at, sizeof at, "probes.wave_quality.%s", words[i]);
+        TRY(find_gauge(reader, scene, at, draft->quality_names[i], &scene->quality_gauges[i]));
+        scene->quality_gauge_count = i + 1;
+    }
+    return true;
+}

@@ -33,6 +33,8 @@ Scene scene_default(void)
     waves->focus.x = waves->focus.y = 0;
     waves->focus.time = NAN; // required for a group
     waves->piston_order = 2;
+    waves->gain.gauge = -1;
+    waves->gain.largest = 1.25;
     waves->initial.height = waves->initial.period = NAN;
     waves->initial.heading = 0;
     waves->start = WAVE_START_RAMP;

@@ -71,6 +71,12 @@ static const JsonField FOCUS_FIELDS[] = {
 };
 static const JsonTable FOCUS_TABLE = {FOCUS_FIELDS, COUNT(FOCUS_FIELDS), NULL};
 
+static const JsonField GAIN_FIELDS[] = {
+    {"gauge", FIELD_NAME, true, IN_CASE(scene.waves.gain.gauge_name), .count_max = SCENE_NAME_SIZE},
+    {"largest", FIELD_NUMBER, IN_CASE(scene.waves.gain.largest), .min = 1, .max = 2},
+};
+static const JsonTable GAIN_TABLE = {GAIN_FIELDS, COUNT(GAIN_FIELDS), NULL};
+
 static const JsonField WAVE_FIELDS[] = {
     {"kind", FIELD_CHOICE, true, IN_CASE(scene.waves.kind),
      .choices = {"none", "regular", "irregular", "focused"}},
@@ -85,6 +91,7 @@ static const JsonField WAVE_FIELDS[] = {
     {"zone_width_m", FIELD_NUMBER, IN_CASE(scene.waves.zone_width), .max = 1000, .unit = "m"},
     {"spectrum", FIELD_OBJECT, .table = &SPECTRUM_TABLE},
     {"focus", FIELD_OBJECT, .table = &FOCUS_TABLE},
+    {"gain", FIELD_OBJECT, .table = &GAIN_TABLE},
     {"piston_order", FIELD_INTEGER, IN_CASE(scene.waves.piston_order), .min = 1, .max = 2},
     {"limits", FIELD_OBJECT, .table = &LIMIT_TABLE},
 };
@@ -140,6 +147,13 @@ static const JsonField GREEN_WATER_FIELDS[] = {
 };
 static const JsonTable GREEN_WATER_TABLE = {GREEN_WATER_FIELDS, COUNT(GREEN_WATER_FIELDS), NULL};
 
+static const JsonField QUALITY_FIELDS[] = {
+    {"first", FIELD_NAME, true, IN_CASE(quality_names[0]), .count_max = SCENE_NAME_SIZE},
+    {"second", FIELD_NAME, true, IN_CASE(quality_names[1]), .count_max = SCENE_NAME_SIZE},
+    {"third", FIELD_NAME, true, IN_CASE(quality_names[2]), .count_max = SCENE_NAME_SIZE},
+};
+static const JsonTable QUALITY_TABLE = {QUALITY_FIELDS, COUNT(QUALITY_FIELDS), NULL};
+
 static const JsonField PROBE_FIELDS[] = {
     {"gauges", FIELD_LIST, IN_CASE(scene.gauges), .table = &GAUGE_TABLE,
      .item_size = sizeof(GaugeScene), .counter_offset = offsetof(CaseFile, scene.gauge_count),
@@ -158,6 +172,7 @@ static const JsonField PROBE_FIELDS[] = {
      .item_size = sizeof(GreenWaterScene),
      .counter_offset = offsetof(CaseFile, scene.green_water_count),
      .count_max = SCENE_GREEN_WATERS_MAX},
+    {"wave_quality", FIELD_OBJECT, .table = &QUALITY_TABLE},
     {"energy", FIELD_CHOICE, IN_CASE(scene.energy), .choices = {"none", "levels", "budget"}},
 };
 static const JsonTable PROBE_TABLE = {PROBE_FIELDS, COUNT(PROBE_FIELDS), NULL};

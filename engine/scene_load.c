@@ -160,6 +160,7 @@ bool case_resolve(const JsonReader *reader, CaseFile *draft)
 {
     TRY(resolve_waves(reader, draft));
     TRY(resolve_domain(reader, draft));
+    TRY(case_find_gauges(reader, draft));
     Waves *waves = &draft->scene.waves;
     if (waves->kind == WAVES_NONE) { // a case may keep its sea and switch it off
         memset(&waves->initial, 0, sizeof waves->initial);

@@ -161,7 +161,9 @@ static void layer_make(const Sea *sea, SeaLayer *layer, const WaveTarget *target
 void sea_refresh(Sea *sea, const WaveState *waves)
 {
     for (int i = 0; i < waves->layer_count; i++) {
-        const WaveTarget *target = &waves->layers[i].target;
+        WaveTarget gained = waves->layers[i].target;
+        gained.height *= waves->layers[i].gain;
+        const WaveTarget *target = &gained;
         double origin = waves->layers[i].train.time_origin;
         SeaLayer *layer = &sea->layers[i];
         const WaveTarget *made = &layer->target;

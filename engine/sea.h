@@ -22,7 +22,7 @@ typedef struct SeaShape {
 
 /// The components of one layer, ready for evaluation. Arrays of count values.
 typedef struct SeaLayer {
-    WaveTarget target; ///< these and the two below are what the arrays were made of
+    WaveTarget target; ///< with its gain; this and the next are what the arrays were made of
     double time_origin;
     bool made;
     double *amplitude;         ///< a/(1 - E) [m]

@@ -19,12 +19,14 @@ static const char *const RUN_UP_COLUMNS[] = {"run_up_m"};
 static const char *const SLAMMING_COLUMNS[] = {"slam_fx_n", "slam_fy_n", "slam_fz_n"};
 static const char *const GREEN_COLUMNS[] = {"green_volume_m3", "green_height_m"};
 
+static const char *const HEIGHT_COLUMNS[] = {"height_ratio"};
+
 #define COUNT_OF(array) (int)(sizeof(array) / sizeof *(array))
 
 static_assert(1 + SCENE_BODIES_MAX * COUNT_OF(BODY_COLUMNS) +
                       SCENE_LINES_MAX * COUNT_OF(LINE_COLUMNS) + SCENE_GAUGES_MAX +
                       SCENE_PRESSURE_PROBES_MAX + SCENE_RUN_UPS_MAX + 3 * SCENE_SLAMMINGS_MAX +
-                      2 * SCENE_GREEN_WATERS_MAX + ENERGY_COLUMNS_MAX <=
+                      2 * SCENE_GREEN_WATERS_MAX + QUALITY_GAUGES + 2 + ENERGY_COLUMNS_MAX <=
                   SERIES_COLUMNS_MAX,
               "every scene fits into a table");
 static_assert(SCENE_NAME_SIZE + 24 <= SERIES_COLUMN_SIZE, "every name fits into a column's");
@@ -34,6 +36,16 @@ static void add_columns(SeriesTable *table, const char *owner, const char *const
 {
     for (int i = 0; i < count; i++)
         snprintf(table->names[table->count++], SERIES_COLUMN_SIZE, "%s.%s", owner, columns[i]);
+}
+
+static void add_quality(const Scene *scene, SeriesTable *table)
+{
+    static const char *const reflection[] = {"reflection"}, *const gain[] = {"gain"};
+    if (!wave_quality_asked(scene)) return;
+    for (int i = 0; i < scene->quality_gauge_count; i++)
+        add_columns(table, scene->gauges[scene->quality_gauges[i]].name, HEIGHT_COLUMNS, 1);
+    if (scene->quality_gauge_count) add_columns(table, "wave_quality", reflection, 1);
+    if (scene->waves.gain.gauge >= 0) add_columns(table, "wave_quality", gain, 1);
 }
 
 void series_table(const Scene *scene, SeriesTable *table)
@@ -54,6 +66,7 @@ void series_table(const Scene *scene, SeriesTable *table)
         add_columns(table, scene->slammings[i].name, SLAMMING_COLUMNS, COUNT_OF(SLAMMING_COLUMNS));
     for (int i = 0; i < scene->green_water_count; i++)
         add_columns(table, scene->green_waters[i].name, GREEN_COLUMNS, COUNT_OF(GREEN_COLUMNS));
+    add_quality(scene, table);
     if (scene->energy == ENERGY_NONE) return;
     EnergyColumn energy[ENERGY_COLUMNS_MAX];
     int energies = energy_columns(scene, NULL, energy);
@@ -95,6 +108,16 @@ static double lap(State *state, EffectId effect, double begin)
     return now;
 }
 
+static double *sample_quality(const Scene *scene, const State *state, double *row)
+{
+    if (!wave_quality_asked(scene)) return row;
+    for (int i = 0; i < scene->quality_gauge_count; i++)
+        *row++ = state->quality->gauge[i].height / state->waves->asked.height;
+    if (scene->quality_gauge_count) *row++ = state->quality->reflection;
+    if (scene->waves.gain.gauge >= 0) *row++ = state->waves->gain;
+    return row;
+}
+
 static void sample_probes(const Scene *scene, State *state, double *row)
 {
     double begin = step_clock();
@@ -115,6 +138,7 @@ static void sample_probes(const Scene *scene, State *state, double *row)
         *row++ = water.height;
     }
     if (scene->green_water_count) begin = lap(state, EFFECT_GREEN_WATER, begin);
+    row = sample_quality(scene, state, row);
     if (scene->energy == ENERGY_NONE) return;
     EnergyColumn energy[ENERGY_COLUMNS_MAX];
     int energies = energy_columns(scene, state, energy);

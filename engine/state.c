@@ -102,6 +102,12 @@ static bool create_waves(const Scene *scene, State *state, Error *error)
     TRY(state->waves = arena_take(&state->arena, 1, sizeof(WaveState), "waves", error));
     TRY(state->checkpoint.waves = arena_take(&state->arena, 1, sizeof(WaveState), "waves", error));
     *state->waves = waves_create(scene);
+    if (wave_quality_asked(scene)) {
+        size_t size = sizeof(WaveQuality);
+        TRY(state->quality = arena_take(&state->arena, 1, size, "wave quality", error));
+        TRY(state->checkpoint.quality = arena_take(&state->arena, 1, size, "wave quality", error));
+        *state->quality = wave_quality_create();
+    }
     return waves_take_sea(state->waves, scene, &state->arena, error);
 }
 

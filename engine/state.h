@@ -12,6 +12,7 @@
 #include "line_watch.h"
 #include "plan.h"
 #include "slamming.h"
+#include "wave_quality.h"
 #include "waves.h"
 
 /// What went wrong, where, when, against which limit; see health.h.
@@ -29,6 +30,7 @@ typedef struct Checkpoint {
     double time; ///< NAN before the first one
     int64_t step;
     WaveState *waves;
+    WaveQuality *quality;
     double line_work;
     Body *bodies;
     double **lines; ///< line_state_save of each
@@ -47,15 +49,16 @@ typedef struct EnergyLevels {
 typedef struct State {
     double time; ///< simulated [s]
     int64_t step;
-    double time_step;    ///< in use now [s]
-    WaveState *waves;    ///< NULL without waves
-    Body *bodies;        ///< [scene->body_count]
-    Mooring mooring;     ///< lines and the points that join them
-    Line *lines;         ///< mooring.lines
-    Slamming *slammings; ///< [scene->slamming_count]
-    LineWatch *watches;  ///< [scene->line_count]
-    LineOrder *orders;   ///< [scene->line_count]
-    LineEvents *events;  ///< of all lines; NULL without lines
+    double time_step;     ///< in use now [s]
+    WaveState *waves;     ///< NULL without waves
+    WaveQuality *quality; ///< NULL where nobody asks
+    Body *bodies;         ///< [scene->body_count]
+    Mooring mooring;      ///< lines and the points that join them
+    Line *lines;          ///< mooring.lines
+    Slamming *slammings;  ///< [scene->slamming_count]
+    LineWatch *watches;   ///< [scene->line_count]
+    LineOrder *orders;    ///< [scene->line_count]
+    LineEvents *events;   ///< of all lines; NULL without lines
     HealthRecord health;
     double wall_time;                            ///< spent in step_advance [s]
     double smallest_step, largest_step;          ///< used so far [s]

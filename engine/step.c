@@ -11,6 +11,7 @@
 #include "engine.h"
 #include "health.h"
 #include "piston.h"
+#include "probes.h"
 
 double step_clock(void)
 {
@@ -52,6 +53,25 @@ WaterField step_water(const Scene *scene, const State *state)
     WaterField water = {waves ? at_nodes : NULL, waves ? state->waves : NULL, scene->fluid.level,
                         scene->fluid.density,    scene->fluid.gravity,        scene->domain.min.z};
     return water;
+}
+
+typedef struct GaugeContext {
+    const Scene *scene;
+    const State *state;
+} GaugeContext;
+
+static double read_gauge(const void *context, int gauge)
+{
+    const GaugeContext *c = context;
+    return probe_elevation(c->scene, c->state, gauge);
+}
+
+static void judge_waves(const Scene *scene, State *state)
+{
+    double begin = step_clock();
+    GaugeContext context = {scene, state};
+    wave_quality_advance(state->quality, scene, state->waves, state->time, read_gauge, &context);
+    state->host_seconds[EFFECT_WAVE_QUALITY] += step_clock() - begin;
 }
 
 static void probe_slamming(const Scene *scene, const Plan *plan, State *state, double dt)
@@ -188,6 +208,7 @@ static bool step_once(const Scene *scene, const Plan *plan, State *state, double
         waves_update(state->waves, scene, state->time);
         state->host_seconds[wave_maker(plan)] += step_clock() - lap;
     }
+    if (plan->effects[EFFECT_WAVE_QUALITY].active) judge_waves(scene, state);
     return true;
 }
 

@@ -62,8 +62,11 @@ static WaveTerms terms_create(const Scene *scene, const WaveTarget *target)
     return wave_terms(target->height / 2, number, omega, depth, level);
 }
 
-static WaveTrain train_create(const Scene *scene, const WaveTarget *target)
+static WaveTrain train_create(const Scene *scene, const WaveTarget *asked, double gain)
 {
+    WaveTarget made = *asked;
+    const WaveTarget *target = &made;
+    made.height *= gain;
     const Domain *domain = &scene->domain;
     WaveTrain train = {0};
     train.amplitude = target->height / 2;
@@ -104,10 +107,12 @@ WaveState waves_create(const Scene *scene)
     if (scene->waves.kind == WAVES_NONE) return waves;
     waves.asked = scene->waves.initial;
     waves.interior = interior_create(scene);
+    waves.gain = 1;
     waves.piston_order = scene->waves.piston_order;
     WaveLayer *base = &waves.layers[0];
     base->target = waves.asked;
-    base->train = train_create(scene, &waves.asked);
+    base->gain = 1;
+    base->train = train_create(scene, &waves.asked, 1);
     waves.layer_count = 1;
     if (scene->waves.start == WAVE_START_RAMP && scene->waves.ramp_time > 0) {
         waves.layers[1] = *base;
@@ -157,6 +162,7 @@ static void layer_push(WaveState *waves, const WaveTrain *train, const WaveTarge
     WaveLayer *layer = &waves->layers[waves->layer_count];
     layer->train = *train;
     layer->target = *target;
+    layer->gain = waves->gain;
     layer->begin = time;
     layer->duration = duration;
     layer->train.time_origin = time + duration / 2;
@@ -187,7 +193,7 @@ static void admit(WaveState *waves, const Scene *scene, double time)
     bool crowded = waves->layer_count >= WAVE_LAYERS_MAX - 1;
     bool early = waves->layer_count > 1 && time < top->begin + LAYER_SPACING * top->duration;
     if (crowded || early) return;
-    WaveTrain train = train_create(scene, target);
+    WaveTrain train = train_create(scene, target, waves->gain);
     layer_push(waves, &train, target, time, scene->waves.blend_periods * target->period);
     waves->has_queued = false;
 }
@@ -210,6 +216,13 @@ void waves_command(WaveState *waves, const Scene *scene, const WaveTarget *targe
     waves->asked = waves->queued = *target;
     waves->has_queued = true;
     waves_update(waves, scene, time);
+}
+
+void waves_set_gain(WaveState *waves, const Scene *scene, double gain, double time)
+{
+    waves->gain = gain;
+    WaveTarget same = waves->has_queued ? waves->queued : waves->asked;
+    waves_command(waves, scene, &same, time);
 }
 
 void waves_update(WaveState *waves, const Scene *scene, double time)

@@ -22,6 +22,7 @@ typedef struct WaveLayer {
     WaveTrain train;
     WaveTarget target;      ///< what it is, for display
     double begin, duration; ///< of the rise [s]; the oldest layer is opaque
+    double gain;            ///< its height over the target's [-]
 } WaveLayer;
 
 enum {
@@ -59,6 +60,7 @@ typedef struct WaveState {
     bool has_queued;                   ///< `queued` waits for its turn
     WaveTarget queued;
     WaveInterior interior;
+    double gain; ///< of new layers
     int piston_order;
     struct Sea *sea; ///< components; NULL for regular waves; borrowed
 } WaveState;
@@ -78,6 +80,9 @@ void waves_refresh(const WaveState *waves);
 /// Ask for another sea; phases are matched at the basin's centre. The caller has checked the
 /// limits.
 void waves_command(WaveState *waves, const Scene *scene, const WaveTarget *target, double time);
+
+/// Make the waves' heights `gain` times what is asked for, by a live change of its own.
+void waves_set_gain(WaveState *waves, const Scene *scene, double gain, double time);
 
 /// Drop what is covered and start what is queued; call once per step.
 void waves_update(WaveState *waves, const Scene *scene, double time);

@@ -35,6 +35,21 @@ static void write_lines(Json *json, const SummaryInfo *info)
     json_array_end(json);
 }
 
+static void write_quality(Json *json, const SummaryInfo *info)
+{
+    const Scene *scene = info->scene;
+    const State *state = info->state;
+    if (!wave_quality_asked(scene)) return;
+    json_object(json, "wave_quality");
+    json_array(json, "height_ratios");
+    for (int i = 0; i < scene->quality_gauge_count; i++)
+        json_number(json, NULL, state->quality->gauge[i].height / state->waves->asked.height);
+    json_array_end(json);
+    json_number(json, "reflection", state->quality->reflection);
+    json_number(json, "gain", state->waves->gain);
+    json_object_end(json);
+}
+
 void summary_format(Text *text, const SummaryInfo *info)
 {
     static const char *const reasons[] = {"until reached", "interrupted", "physics", "error"};
@@ -69,6 +84,7 @@ void summary_format(Text *text, const SummaryInfo *info)
     write_health(&json, info);
     effects_write_costs(&json, info->plan, info->state);
     write_lines(&json, info);
+    write_quality(&json, info);
     json_integer(&json, "frames", info->frame_count);
     json_string(&json, "exit", reasons[info->how]);
     json_string(&json, "exit_message", info->message);

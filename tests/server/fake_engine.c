@@ -242,6 +242,8 @@ bool state_command(const Scene *scene, State *state, const Command *command, Err
     return true;
 }
 
+bool wave_quality_asked(const Scene *scene) { return scene->quality_gauge_count > 0; }
+
 WaveTarget waves_now(const WaveState *waves, double time) { return waves->asked; }
 
 /// z = H/2 cos(k (x cos + y sin) - omega t)
