@@ -189,8 +189,9 @@ static void sample_water(Line *line, const WaterField *water, double time, doubl
         return;
     }
     for (int side = 0; side < 2; side++) {
-        water->at_nodes(water->context, time + side * duration, count, line->position,
-                        work->sample_velocity, work->sample_acceleration, work->sample_elevation);
+        water->at_nodes(water->context, line->scene->water, time + side * duration, count,
+                        line->position, work->sample_velocity, work->sample_acceleration,
+                        work->sample_elevation);
         double **to = work->water[side];
         for (int i = 0; i < count; i++) {
             to[0][i] = work->sample_velocity[i].x;

@@ -8,10 +8,12 @@
 #include "base/portable.h"
 #include "scene.h"
 
-/// Water around a line: what a node asks for. One call fills `count` nodes.
+/// Water around a line: what a node asks for, of the kind its line chose. One call fills `count`
+/// nodes.
 /// velocity [m/s], acceleration [m/s^2], surface elevation z [m] above each node.
-typedef void (*WaterAtNodes)(const void *context, double time, int count, const Vec3 *position,
-                             Vec3 *velocity, Vec3 *acceleration, double *elevation);
+typedef void (*WaterAtNodes)(const void *context, LineWater kind, double time, int count,
+                             const Vec3 *position, Vec3 *velocity, Vec3 *acceleration,
+                             double *elevation);
 
 typedef struct WaterField {
     WaterAtNodes at_nodes; ///< NULL = still water at `level`

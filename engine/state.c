@@ -9,6 +9,7 @@
 #include "energy.h"
 #include "engine.h"
 #include "fill.h"
+#include "line_water.h"
 #include "step.h"
 
 static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
@@ -131,7 +132,8 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
         state->bodies[b] = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
     if (!lines) return true;
     TRY(state->events = arena_take(&state->arena, 1, sizeof(LineEvents), "lines", error));
-    WaterField water = step_water(scene, state);
+    NodeWater nodes;
+    WaterField water = line_water(scene, state, &nodes);
     LineEnds ends[SCENE_LINES_MAX];
     for (int l = 0; l < scene->line_count; l++)
         ends[l] = plan->lines[l].ends;

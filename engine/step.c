@@ -10,6 +10,7 @@
 #include "coupling.h"
 #include "engine.h"
 #include "health.h"
+#include "line_water.h"
 #include "piston.h"
 #include "probes.h"
 
@@ -18,41 +19,6 @@ double step_clock(void)
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/// Incident wave at line nodes: SPH velocities are not asked (a choice that costs nothing). In a
-/// basin that wave carries no drift.
-static void water_at_nodes(const void *context, double time, int count, const Vec3 *position,
-                           Vec3 *velocity, Vec3 *acceleration, double *elevation)
-{
-    const WaveState *waves = context;
-    for (int i = 0; i < count; i++) {
-        velocity[i] = waves_zone_velocity(waves, position[i], time);
-        acceleration[i] = waves_acceleration(waves, position[i], time);
-        elevation[i] = waves_elevation(waves, position[i].x, position[i].y, time);
-    }
-}
-
-/// The same without a basin around: the wave has its drift.
-static void open_water_at_nodes(const void *context, double time, int count, const Vec3 *position,
-                                Vec3 *velocity, Vec3 *acceleration, double *elevation)
-{
-    const WaveState *waves = context;
-    for (int i = 0; i < count; i++) {
-        velocity[i] = waves_velocity(waves, position[i], time);
-        acceleration[i] = waves_acceleration(waves, position[i], time);
-        elevation[i] = waves_elevation(waves, position[i].x, position[i].y, time);
-    }
-}
-
-WaterField step_water(const Scene *scene, const State *state)
-{
-    bool waves = scene->waves.kind != WAVES_NONE;
-    WaterAtNodes at_nodes =
-        scene->domain.kind == DOMAIN_LINES ? open_water_at_nodes : water_at_nodes;
-    WaterField water = {waves ? at_nodes : NULL, waves ? state->waves : NULL, scene->fluid.level,
-                        scene->fluid.density,    scene->fluid.gravity,        scene->domain.min.z};
-    return water;
 }
 
 typedef struct GaugeContext {
@@ -117,7 +83,8 @@ static void advance_bodies(const Scene *scene, const Plan *plan, State *state, d
 static bool advance_lines(const Scene *scene, State *state, double dt, const LinePaths *paths,
                           Error *error)
 {
-    WaterField water = step_water(scene, state);
+    NodeWater nodes;
+    WaterField water = line_water(scene, state, &nodes);
     TRY(mooring_advance(&state->mooring, &water, state->time, dt, paths->end, error));
     for (int l = 0; l < scene->line_count; l++)
         line_watch_step(&state->watches[l], &state->lines[l], l, state->time + dt, state->events);

@@ -4,9 +4,6 @@
 
 #include "state.h"
 
-/// The water as mooring lines see it: the incident wave, or still water.
-WaterField step_water(const Scene *scene, const State *state);
-
 /// What the backend needs to advance by `dt` from the present time, with bodies where they are now.
 Advance step_orders(const Scene *scene, const Plan *plan, State *state, double dt);
 

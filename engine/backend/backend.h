@@ -163,6 +163,9 @@ typedef struct BackendTable {
     /// Shepard-interpolated pressure at a point [Pa]; 0 where dry. A `normal` other than zero looks
     /// only at the water on its side.
     double (*pressure)(Backend *backend, Vec3 point, Vec3 normal);
+    /// Shepard-interpolated velocity of the water at a point [m/s], and its share of the room there
+    /// [-], about one half at the surface.
+    void (*velocity)(Backend *backend, Vec3 point, Vec3 *velocity, double *share);
     /// Water at `count` points evenly from `from` to `to`: its share of the room that dummies leave
     /// [-], about one half at the surface.
     void (*wetness)(Backend *backend, Vec3 from, Vec3 to, int count, double *share);

@@ -473,6 +473,7 @@ const BackendTable *backend_cpu(void)
         .advance = cpu_advance,
         .download = cpu_download,
         .elevation = cpu_elevation,
+        .velocity = cpu_velocity,
         .pressure = cpu_pressure,
         .wetness = cpu_wetness,
         .columns = cpu_columns,

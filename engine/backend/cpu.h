@@ -95,6 +95,7 @@ void cpu_sweep_fluid(Backend *backend, void (*function)(const Sweep *, int, int)
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
 double cpu_elevation(Backend *backend, double x, double y);
 double cpu_pressure(Backend *backend, Vec3 point, Vec3 normal);
+void cpu_velocity(Backend *backend, Vec3 point, Vec3 *velocity, double *share);
 void cpu_wetness(Backend *backend, Vec3 from, Vec3 to, int count, double *share);
 void cpu_columns(const Backend *backend, const BodyPose *pose, Vec3 min, Vec3 max,
                  const int count[2], double *volume);

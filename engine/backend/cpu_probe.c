@@ -115,6 +115,37 @@ double cpu_pressure(Backend *b, Vec3 point, Vec3 normal)
     return weight > 0 && sum > 0 ? sum / weight : 0;
 }
 
+void cpu_velocity(Backend *b, Vec3 point, Vec3 *velocity, double *share)
+{
+    cpu_refresh_boxes(b);
+    const ParticleSet *f = &b->fluid;
+    double h = b->setup.smoothing_length, unit = b->grid.unit, reach = 2 * h / unit;
+    int32_t at[3] = {to_coordinate(&b->grid, 0, point.x), to_coordinate(&b->grid, 1, point.y),
+                     to_coordinate(&b->grid, 2, point.z)};
+    double weight = 0, sum[3] = {0, 0, 0};
+    for (int c = 0; c < f->cluster_count; c++) {
+        bool near = true;
+        for (int a = 0; a < 3; a++)
+            near =
+                near && f->boxes.min[a][c] <= at[a] + reach && f->boxes.max[a][c] >= at[a] - reach;
+        if (!near) continue;
+        for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++) {
+            if (f->id[i] < 0) continue;
+            Vec3 d = vec3(unit * (f->position[0][i] - at[0]), unit * (f->position[1][i] - at[1]),
+                          unit * (f->position[2][i] - at[2]));
+            float s = (float)(1 - vec3_norm(d) / (2 * h));
+            if (s <= 0) continue;
+            weight += kernel_value(s);
+            for (int a = 0; a < 3; a++)
+                sum[a] += kernel_value(s) * f->field[VELOCITY_X + a][i];
+        }
+    }
+    double volume = b->setup.particle_mass / b->setup.rest_density;
+    *share = weight * volume * kernel_constant(h, b->setup.dimensions);
+    *velocity =
+        weight > 0 ? vec3(sum[0] / weight, sum[1] / weight, sum[2] / weight) : vec3(0, 0, 0);
+}
+
 /// Add the volume-weighted kernel of each particle of a set to the points from + k step.
 static void add_colour(const Backend *b, const ParticleSet *set, Vec3 from, Vec3 step, int count,
                        double *colour)

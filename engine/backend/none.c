@@ -70,6 +70,14 @@ static double none_pressure(Backend *backend, Vec3 point, Vec3 normal)
     return NAN;
 }
 
+static void none_velocity(Backend *backend, Vec3 point, Vec3 *velocity, double *share)
+{
+    (void)backend;
+    (void)point;
+    *velocity = vec3(0, 0, 0);
+    *share = 0;
+}
+
 static void none_wetness(Backend *backend, Vec3 from, Vec3 to, int count, double *share)
 {
     (void)backend;
@@ -160,6 +168,7 @@ const BackendTable *backend_none(void)
         .download = none_download,
         .elevation = none_elevation,
         .pressure = none_pressure,
+        .velocity = none_velocity,
         .wetness = none_wetness,
         .columns = none_columns,
         .energy = none_energy,

@@ -298,8 +298,8 @@ TEST(buoyancy_and_drag_act_only_where_the_line_is_wet)
 }
 
 /// Water that flows and accelerates, above a moving surface.
-static void stream(const void *context, double time, int count, const Vec3 *position,
-                   Vec3 *velocity, Vec3 *acceleration, double *elevation)
+static void stream(const void *context, LineWater kind, double time, int count,
+                   const Vec3 *position, Vec3 *velocity, Vec3 *acceleration, double *elevation)
 {
     const Vec3 *speed = context;
     for (int i = 0; i < count; i++) {
