@@ -134,7 +134,7 @@ static void choose_bodies_and_lines(const Scene *scene, Plan *plan, const Fill *
         nodes += (size_t)scene->lines[l].segments + 1;
     set(plan, EFFECT_LINES, lines > 0, nodes * 40 * sizeof(double),
         lines ? "lines: %d, %zu nodes" : "no lines", lines, nodes);
-    bool simulated = line_water_is_simulated(scene);
+    bool simulated = lines && line_water_is_simulated(scene);
     set(plan, EFFECT_LINE_WATER, simulated, 0, "%s",
         simulated ? "a line asks for the simulated water"
         : lines   ? "lines feel the incident water"
