@@ -88,24 +88,34 @@ TEST(static_tensions_from_the_files_match_the_elastic_catenary)
 // ---- driven lines
 // ---------------------------------------------------------------------------------
 
-TEST(a_driven_line_without_water_snaps_as_the_reference)
+/// Start a case of lines alone. @return false with the reason printed
+static bool start_case(const char *path, Plan *plan, State **state)
 {
     EngineOptions options = {.threads = 1, .backend = "auto"};
-    Plan plan;
-    State *state = NULL;
-    bool good =
-        scene_load(SOURCE_DIR "/tests/good_cases/driven_lines.json", NULL, 0, &scene, &error) &&
-        plan_build(&scene, &options, &plan, &error) && state_create(&scene, &plan, &state, &error);
+    bool good = scene_load(path, NULL, 0, &scene, &error) &&
+                plan_build(&scene, &options, plan, &error) &&
+                state_create(&scene, plan, state, &error);
     if (!good) printf("  %s\n", error.message);
     CHECK(good);
-    if (!good) return;
+    return good;
+}
+
+static double last_tension(const State *state)
+{
+    return state->lines[0].tension[state->lines[0].node_count - 2];
+}
+
+TEST(a_driven_line_without_water_snaps_as_the_reference)
+{
+    Plan plan;
+    State *state = NULL;
+    if (!start_case(SOURCE_DIR "/tests/good_cases/driven_lines.json", &plan, &state)) return;
     CHECK(plan.fluid_count == 0 && !strcmp(plan.backend, "none"));
     double peak = 0, when = 0;
     while (state->time < 2.9) {
         CHECK(step_advance(&scene, &plan, state, &error));
-        double tension = state->lines[0].tension[state->lines[0].node_count - 2];
-        if (state->time > 2 && tension > peak) {
-            peak = tension;
+        if (state->time > 2 && last_tension(state) > peak) {
+            peak = last_tension(state);
             when = state->time;
         }
     }
@@ -118,6 +128,80 @@ TEST(a_driven_line_without_water_snaps_as_the_reference)
     snapshot_take(&scene, &plan, state, &snapshot);
     CHECK(snapshot.fluid_count == 0 && snapshot.line_count == 1);
     snapshot_destroy(&snapshot);
+    state_destroy(state);
+    plan_destroy(&plan);
+}
+
+/// A file of tests/data driven at its fairlead in one freedom, with the rule's own step.
+static bool start_driven(const char *name, Vec3 fairlead, const char *freedom, double amplitude,
+                         double period, Plan *plan, State **state)
+{
+    char text[900], path[200];
+    snprintf(
+        text, sizeof text,
+        "{\"domain\": {\"kind\": \"lines\"}, \"moordyn_file\": "
+        "\"%s/tests/data/mooring/moordyn/%s\", \"moordyn_body\": \"v\","
+        "\"bodies\": [{\"name\": \"v\", \"shape\": \"box\", \"size_m\": [0.1, 0.1, 0.1],"
+        "\"position_m\": [%g, %g, %g], \"mass_kg\": 1, \"freedoms\": {\"others\": \"fixed\","
+        "\"%s\": {\"prescribed\": {\"amplitude_m\": %g, \"period_s\": %g, \"ramp_s\": %g}}}}]}",
+        SOURCE_DIR, name, fairlead.x, fairlead.y, fairlead.z, freedom, amplitude, period, period);
+    snprintf(path, sizeof path, "%s", written("reference.json", text));
+    bool good = start_case(path, plan, state);
+    unlink(path);
+    return good;
+}
+
+TEST(a_rope_from_a_file_snaps_at_the_force_and_the_moment_of_the_reference)
+{
+    Plan plan;
+    State *state = NULL;
+    if (!start_driven("b5_rope_heave_snap_N20.txt", vec3(40, 0, -10), "heave", 3, 4, &plan, &state))
+        return;
+    double peak = 0, when = 0;
+    while (state->time < 6) {
+        CHECK(step_advance(&scene, &plan, state, &error));
+        if (last_tension(state) <= peak) continue;
+        peak = last_tension(state);
+        when = state->time;
+    }
+    printf("  step %.3g s, peak %.1f N at %.4f s\n", plan.time_step, peak, when);
+    CHECK_NEAR(peak, 3573.5, 0.01 * 3573.5); // series/b5_rope_heave_snap_N20.csv
+    CHECK_NEAR(when, 4.98, 0.01);
+    state_destroy(state);
+    plan_destroy(&plan);
+}
+
+TEST(a_rope_from_a_file_in_small_surge_follows_the_reference_within_one_percent_rms)
+{
+    enum { ROWS = 250 };
+    static double reference[ROWS][3];
+    FILE *stream = fopen(SOURCE_DIR "/tests/data/mooring/b4.csv", "r");
+    char row[200];
+    int count = 0;
+    CHECK(stream && fgets(row, sizeof row, stream));
+    while (stream && count < ROWS && fgets(row, sizeof row, stream))
+        count += sscanf(row, "%lf,%lf,%lf", &reference[count][0], &reference[count][1],
+                        &reference[count][2]) == 3;
+    if (stream) fclose(stream);
+    Plan plan;
+    State *state = NULL;
+    if (!start_driven("b4_rope_surge_small_N20.txt", vec3(40, 0, -10), "surge", 0.1, 5, &plan,
+                      &state))
+        return;
+    double error_squares = 0, squares = 0, mean = 0;
+    for (int i = 0; i < count; i++)
+        mean += reference[i][1] / count;
+    for (int i = 0; i < count; i++) {
+        while (state->time < reference[i][0] - 1e-9)
+            CHECK(step_advance(&scene, &plan, state, &error));
+        double off = last_tension(state) - reference[i][1], wave = reference[i][1] - mean;
+        error_squares += off * off;
+        squares += wave * wave;
+    }
+    printf("  %d rows to %.3g s, rms %.4f %%\n", count, state->time,
+           100 * sqrt(error_squares / squares));
+    CHECK(count > 100);
+    CHECK(sqrt(error_squares / squares) < 0.01);
     state_destroy(state);
     plan_destroy(&plan);
 }
