@@ -60,10 +60,11 @@ void bend_forces(const Bend *b, Vec3 force[3])
 
 void bend_change(const Bend *b, const Vec3 *move, Vec3 force[3])
 {
+    double k = -b->stiffness * b->growth;
     Vec3 turned = vec3_sub(turn(b->after, b->above, vec3_sub(move[2], move[1])),
                            turn(b->before, b->below, vec3_sub(move[1], move[0])));
-    force[0] = vec3_scale(turn(b->before, b->below, turned), -b->stiffness);
-    force[2] = vec3_scale(turn(b->after, b->above, turned), -b->stiffness);
+    force[0] = vec3_scale(turn(b->before, b->below, turned), k);
+    force[2] = vec3_scale(turn(b->after, b->above, turned), k);
     force[1] = vec3_scale(vec3_add(force[0], force[2]), -1);
 }
 

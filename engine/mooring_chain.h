@@ -11,6 +11,8 @@
 /// change of direction.
 typedef struct Bend {
     double stiffness;    ///< k [J]
+    double time;         ///< damping over stiffness [s]
+    double growth;       ///< of the forces with a move: 1, in an implicit step also by the rate
     Vec3 before, after;  ///< unit vectors q-, q+
     double below, above; ///< 1/s-, 1/s+ [1/m]
 } Bend;
@@ -50,7 +52,8 @@ void chains_solve(Chain *const *chains, int count, PointBlock *points);
 /// Forces of a bend on the node before, on it and after.
 void bend_forces(const Bend *bend, Vec3 force[3]);
 
-/// Growth of those forces with a move of the three nodes, to first order in small turns.
+/// Growth of those forces with a move of the three nodes, to first order in small turns, times
+/// `growth`; of the forces of damping with their velocities, times `time` in its place.
 void bend_change(const Bend *bend, const Vec3 *move, Vec3 force[3]);
 
 #endif

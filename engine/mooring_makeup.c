@@ -32,6 +32,12 @@ LineSection line_section(const LineScene *scene, int k)
     return section;
 }
 
+/// The fastest a beam of point masses swings [rad/s].
+static double bending_frequency(const LineConstants *c)
+{
+    return 4 * sqrt(c->bending / (c->mass * c->length * c->length * c->length));
+}
+
 /// Constants of one segment of length `l` of a section.
 static LineConstants segment_constants(const LineMakeup *makeup, const LineSection *section,
                                        double l)
@@ -60,6 +66,10 @@ static LineConstants segment_constants(const LineMakeup *makeup, const LineSecti
     c.friction_speed = FRICTION_SPEED;
     c.friction_cap = INFINITY;
     c.bending = section->bending_stiffness;
+    c.bending_time = 0;
+    if (c.bending >
+        0) // the same ratio of critical for the shortest wave as a stretched segment has
+        c.bending_time = 2 * section->damping_ratio / bending_frequency(&c);
     c.breaking = section->breaking_tension > 0 ? section->breaking_tension : INFINITY;
     return c;
 }
@@ -76,9 +86,9 @@ static double explicit_limit(const LineConstants *c)
         double bed_zeta = c->bed_damping / (2 * c->mass * omega);
         limit = mind(limit, line_midpoint_limit(bed_zeta) / omega);
     }
-    if (c->bending > 0) { // the shortest wave of a beam of point masses, not damped by itself
-        double omega = 4 * sqrt(c->bending / (c->mass * c->length * c->length * c->length));
-        limit = mind(limit, line_midpoint_limit(0) / omega);
+    if (c->bending > 0) {
+        double omega = bending_frequency(c);
+        limit = mind(limit, line_midpoint_limit(0.5 * c->bending_time * omega) / omega);
     }
     return STEP_SAFETY * limit;
 }
@@ -202,6 +212,8 @@ Bend makeup_bend(const LineMakeup *makeup, int i, Vec3 before, Vec3 after)
     memset(&bend, 0, sizeof bend);
     if (makeup->parted[i - 1] || makeup->parted[i] || s0 == 0 || s1 == 0) return bend;
     bend.stiffness = (below->bending + above->bending) / (below->length + above->length);
+    bend.time = maxd(below->bending_time, above->bending_time);
+    bend.growth = 1;
     bend.before = vec3_scale(before, 1 / s0);
     bend.after = vec3_scale(after, 1 / s1);
     bend.below = 1 / maxd(s0, SHORTEST * below->length);

@@ -119,9 +119,12 @@ static void linearise_nodes(const LineWork *work, Implicit *im)
         im->force[i] = linearise(c, &at, &im->contacts[i], &im->linear[i]);
     }
     if (!im->chain.bends) return;
-    for (int i = 1; i + 1 < work->node_count; i++)
-        im->chain.bends[i] = makeup_bend(makeup, i, vec3_sub(im->x[i], im->x[i - 1]),
-                                         vec3_sub(im->x[i + 1], im->x[i]));
+    for (int i = 1; i + 1 < work->node_count; i++) {
+        Bend *bend = &im->chain.bends[i];
+        *bend = makeup_bend(makeup, i, vec3_sub(im->x[i], im->x[i - 1]),
+                            vec3_sub(im->x[i + 1], im->x[i]));
+        bend->growth = 1 + bend->time * im->rate_slope;
+    }
 }
 
 /// A free point: the place is that of its lines' ends.
@@ -188,14 +191,17 @@ static void assemble_bending(Implicit *im)
 {
     Chain *chain = &im->chain;
     for (int i = 1; i < chain->last; i++) {
-        Vec3 force[3], change[3];
+        Vec3 force[3], change[3], damping[3];
         if (chain->bends[i].stiffness == 0) continue;
         bend_forces(&chain->bends[i], force);
         bend_change(&chain->bends[i], &im->move[i - 1], change);
+        Bend damper = chain->bends[i];
+        damper.growth = damper.time;
+        bend_change(&damper, &im->v[i - 1], damping);
         for (int k = 0; k < 3; k++) {
             int node = i - 1 + k;
             if (node < im->first || node >= im->end) continue;
-            Vec3 f = vec3_add(force[k], change[k]);
+            Vec3 f = vec3_add(vec3_add(force[k], change[k]), damping[k]);
             im->residual[node] = vec3_add(im->residual[node], f);
             chain->x[node] = im->residual[node];
         }

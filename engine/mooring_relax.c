@@ -264,7 +264,7 @@ static RelaxScale relax_scale(const Relaxation *r)
             const LineConstants *c = m->line.makeup->segment[i];
             scale.weight =
                 maxd(scale.weight, maxd(c->weight, c->buoyancy) + 1e-12 * c->stiffness * c->length);
-            scale.load += fabs(c->weight - c->buoyancy);
+            scale.load += fabs(c->weight - c->buoyancy) + c->bending / (c->length * c->length);
             scale.stiffness = maxd(scale.stiffness, c->stiffness);
             scale.length = maxd(scale.length, c->length);
         }
@@ -295,14 +295,17 @@ static double relax_iterate(Relaxation *r, const RelaxScale *scale, double goal,
     return residual;
 }
 
-/// Lines that are joined may start far from rest, where stiff ones keep Newton's steps short: they
-/// start as soft as rubber and are stiffened tenfold at a time.
+/// Lines that are joined or bend may start far from rest, where stiff ones keep Newton's steps
+/// short: they start as soft as rubber and are stiffened tenfold at a time.
 static double relax_all(Relaxation *r)
 {
     RelaxScale scale = relax_scale(r);
     double goal = RELAX_GOAL * scale.weight + 8e-16 * scale.stiffness * scale.extent; // rounding
     double axial = scale.stiffness * scale.length;
-    if (r->block.count > 0)
+    bool bends = false;
+    for (int l = 0; l < r->line_count; l++)
+        bends = bends || r->lines[l].line.makeup->bends;
+    if (r->block.count > 0 || bends)
         for (r->stiffest = SOFTEST * scale.load; r->stiffest < axial; r->stiffest *= 10)
             relax_iterate(r, &scale, SOFT_GOAL * scale.weight, SOFT_ITERATIONS);
     r->stiffest = INFINITY;

@@ -125,15 +125,21 @@ static void special_node_forces(LineWork *work, const LineNodes *nodes, int i)
 
 /// Bending makes a segment pull across itself too: forces f on the nodes before and after a bent
 /// node are shears f and -f of its segments.
-static void add_shear(LineWork *work)
+static void add_shear(LineWork *work, const LineNodes *nodes)
 {
     const double *dx = work->dx + 1, *dy = work->dy + 1, *dz = work->dz + 1;
     double *px = work->px + 1, *py = work->py + 1, *pz = work->pz + 1;
     for (int i = 1; i + 1 < work->node_count; i++) {
         Bend bend = makeup_bend(&work->makeup, i, vec3(dx[i - 1], dy[i - 1], dz[i - 1]),
                                 vec3(dx[i], dy[i], dz[i]));
-        Vec3 force[3];
+        Vec3 force[3], damping[3], v[3];
+        for (int k = 0; k < 3; k++)
+            v[k] = vec3(nodes->u[i - 1 + k], nodes->v[i - 1 + k], nodes->w[i - 1 + k]);
         bend_forces(&bend, force);
+        bend.growth = bend.time;
+        bend_change(&bend, v, damping);
+        for (int k = 0; k < 3; k += 2)
+            force[k] = vec3_add(force[k], damping[k]);
         px[i - 1] += force[0].x;
         py[i - 1] += force[0].y;
         pz[i - 1] += force[0].z;
@@ -147,7 +153,7 @@ void line_segments(LineWork *work, const LineNodes *nodes)
 {
     for (int r = 0; r < work->makeup.run_count; r++)
         run_segments(work, nodes, &work->makeup.runs[r]);
-    if (work->makeup.bends) add_shear(work);
+    if (work->makeup.bends) add_shear(work, nodes);
 }
 
 void line_node_forces(LineWork *work, const LineNodes *nodes)

@@ -33,6 +33,7 @@ typedef struct LineConstants {
     double friction_speed;   ///< slip at which friction is 1/sqrt(2) of its full value [m/s]
     double friction_cap;     ///< largest ratio of friction to slip speed [N s/m]
     double bending;          ///< EI [N m^2]
+    double bending_time;     ///< ratio of bending's damping to its stiffness [s]
     double breaking;         ///< tension at which a segment parts [N], INFINITY = never
 } LineConstants;
 
