@@ -148,6 +148,8 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     b->sweep = make_sweep(b);
     b->excess_floor =
         (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);
+    b->excess_alone = (float)excess_alone(setup->smoothing_length, setup->dimensions,
+                                          setup->particle_mass, setup->rest_density);
     b->table = sweep_table_choose();
     b->first_step = true;
     if (b->fixed.count) {

@@ -63,7 +63,8 @@ struct Backend {
     BackendSetup setup;
     Grid grid;
     double skin;        ///< [m]
-    float excess_floor; ///< least density excess [-]
+    float excess_floor; ///< density excess at which water tears [-]
+    float excess_alone; ///< least that a particle can have [-]
     ParticleSet fluid, fixed, moving;
     ClusterList fluid_fluid, fluid_fixed, fluid_moving, fixed_fluid, moving_fluid;
     SortScratch scratch;

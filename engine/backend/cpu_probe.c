@@ -4,6 +4,12 @@
 #include "backend/cpu.h"
 #include "physics/fluid.h"
 
+static float pressure_at(const Backend *b, int slot)
+{
+    return tait_pressure(tension_bearing(b->fluid.field[EXCESS][slot], b->excess_floor),
+                         b->sweep.tait_b);
+}
+
 void cpu_download(Backend *b, float (*position)[3], float (*velocity)[3], float *pressure)
 {
     const ParticleSet *f = &b->fluid;
@@ -15,7 +21,7 @@ void cpu_download(Backend *b, float (*position)[3], float (*velocity)[3], float 
             if (position) position[id][a] = (float)to_metres(&b->grid, a, f->position[a][i]);
             if (velocity) velocity[id][a] = f->field[VELOCITY_X + a][i];
         }
-        if (pressure) pressure[id] = tait_pressure(f->field[EXCESS][i], b->sweep.tait_b);
+        if (pressure) pressure[id] = pressure_at(b, i);
     }
 }
 
@@ -109,7 +115,7 @@ double cpu_pressure(Backend *b, Vec3 point, Vec3 normal)
             if (s <= 0 || vec3_dot(d, normal) < 0) continue;
             double lift = b->setup.gravity * b->setup.rest_density * d.z;
             weight += kernel_value(s);
-            sum += kernel_value(s) * (tait_pressure(f->field[EXCESS][i], b->sweep.tait_b) + lift);
+            sum += kernel_value(s) * (pressure_at(b, i) + lift);
         }
     }
     return weight > 0 && sum > 0 ? sum / weight : 0;
@@ -222,7 +228,8 @@ FluidEnergy cpu_energy(const Backend *b)
         for (int a = 0; a < 3; a++)
             square += (double)f->field[VELOCITY_X + a][i] * f->field[VELOCITY_X + a][i];
         height += to_metres(&b->grid, 2, f->position[2][i]);
-        elastic += tait_energy(f->field[EXCESS][i], b->sweep.tait_b, b->setup.rest_density);
+        elastic += tait_energy_torn(f->field[EXCESS][i], b->excess_floor, b->sweep.tait_b,
+                                    b->setup.rest_density);
     }
     double mass = b->setup.particle_mass;
     FluidEnergy energy = {0.5 * mass * square, mass * b->setup.gravity * height, mass * elastic};

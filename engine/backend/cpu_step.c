@@ -15,15 +15,22 @@ static int block_end(const ParticleSet *set, int begin)
     return begin + BLOCK < end ? begin + BLOCK : end;
 }
 
+static void block_pressure(const Backend *b, ParticleSet *f, int begin, int end)
+{
+    float tait = b->sweep.tait_b, rho0 = b->sweep.rest_density, floor = b->excess_floor;
+    for (int i = begin; i < end; i++) {
+        float bearing = tension_bearing(f->field[EXCESS][i], floor);
+        float rho = rho0 * (1.0f + bearing);
+        f->pressure[i] = tait_pressure(bearing, tait) / (rho * rho);
+    }
+}
+
 void AT_LEVEL(step_update_pressure)(Backend *b)
 {
     ParticleSet *f = &b->fluid;
-    float tait = b->sweep.tait_b, rho0 = b->sweep.rest_density;
 #pragma omp parallel for schedule(static) num_threads(b->setup.threads)
-    for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
-        float rho = rho0 * (1.0f + f->field[EXCESS][i]);
-        f->pressure[i] = tait_pressure(f->field[EXCESS][i], tait) / (rho * rho);
-    }
+    for (int begin = 0; begin < f->cluster_count * CLUSTER; begin += BLOCK)
+        block_pressure(b, f, begin, block_end(f, begin));
 }
 
 static void block_dynamic(const Backend *b, ParticleSet *f, int begin, int end)
@@ -35,7 +42,8 @@ static void block_dynamic(const Backend *b, ParticleSet *f, int begin, int end)
     for (int i = begin; i < end; i++) {
         float below = surface - unit * (float)f->position[2][i];
         float at_rest = tait_excess(weight * below, tait);
-        f->dynamic[i] = f->id[i] >= 0 ? diffusion * (f->field[EXCESS][i] - at_rest) : 0.0f;
+        float bearing = tension_bearing(f->field[EXCESS][i], b->excess_floor);
+        f->dynamic[i] = f->id[i] >= 0 ? diffusion * (bearing - at_rest) : 0.0f;
     }
 }
 
@@ -252,19 +260,15 @@ static bool block_finish(Backend *b, int begin, int end, float dt)
 {
     ParticleSet *f = &b->fluid;
     float factor = dt * b->sweep.constants.density_factor;
-    float tait = b->sweep.tait_b, rho0 = b->sweep.rest_density;
     float *excess = f->field[EXCESS];
-    const float floor = b->excess_floor;
+    const float least = b->excess_alone;
     for (int i = begin; i < end; i++) {
         float next = excess[i] + (f->id[i] >= 0 ? factor * f->rate[0][i] : 0.0f);
-        excess[i] = next < floor ? floor : next;
+        excess[i] = next < least ? least : next;
     }
     block_drift(b, f, begin, end, 0.5f * dt);
     bool jumped = block_barrier(b, f, begin, end, dt);
-    for (int i = begin; i < end; i++) {
-        float rho = rho0 * (1.0f + excess[i]);
-        f->pressure[i] = tait_pressure(excess[i], tait) / (rho * rho);
-    }
+    block_pressure(b, f, begin, end);
     return jumped;
 }
 
@@ -291,7 +295,8 @@ static BlockSums block_sums(const Backend *b, int begin, int end)
         s.lost += real & (1 - inside);
         s.sick += real & (1 - sane);
         s.speed2 = s.speed2 > speed2 ? s.speed2 : speed2;
-        float least = real ? excess[i] : 1e30f, most = real ? excess[i] : -1e30f;
+        float bearing = tension_bearing(excess[i], b->excess_floor);
+        float least = real ? bearing : 1e30f, most = real ? bearing : -1e30f;
         s.low = s.low < least ? s.low : least;
         s.high = s.high > most ? s.high : most;
     }

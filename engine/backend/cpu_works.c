@@ -162,19 +162,21 @@ void works_after_step(Backend *b, double dt)
     Works *w = &b->works;
     const ParticleSet *f = &b->fluid;
     double tait = b->sweep.tait_b, rho0 = b->setup.rest_density, mass = b->setup.particle_mass;
+    double floor = b->excess_floor;
     double factor = dt * b->sweep.constants.density_factor, unit = b->grid.unit;
     double inner = 0, plain = 0, full = 0, clipped = 0, speed2 = 0, lift = 0;
     for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
         if (f->id[i] < 0) continue;
         // de/ds = p rho0/rho^2 halfway between the pressures that push before and after the step
         double s0 = w->excess[i], s1 = f->field[EXCESS][i], middle = 0.5 * (s0 + s1);
+        middle = middle > floor ? middle : floor;
         double slope =
             tait_pressure((float)middle, (float)tait) / rho0 / ((1 + middle) * (1 + middle));
         inner += slope * w->rate[INNER][0][i];
         plain += slope * w->rate[PLAIN][0][i];
         full += slope * w->rate[FULL][0][i];
-        clipped += tait_energy(s1, tait, rho0) - tait_energy(s0, tait, rho0) -
-                   slope * factor * w->rate[FULL][0][i];
+        clipped += tait_energy_torn(s1, floor, tait, rho0) -
+                   tait_energy_torn(s0, floor, tait, rho0) - slope * factor * w->rate[FULL][0][i];
         for (int a = 0; a < 3; a++)
             speed2 += (double)f->field[VELOCITY_X + a][i] * f->field[VELOCITY_X + a][i] -
                       (double)w->velocity[a][i] * w->velocity[a][i];

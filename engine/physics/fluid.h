@@ -5,6 +5,7 @@
 #define FAIRLEAD_PHYSICS_FLUID_H
 
 #include "base/portable.h"
+#include "kernel.h"
 
 #define TAIT_GAMMA 7
 
@@ -28,12 +29,31 @@ FN double tait_energy(double s, double b, double rest_density)
     return b / rest_density * s * s * series / (6 * (1 + s));
 }
 
-/// Least density excess [-]: water bears the tension of a column of h/2, -g h/(2 c0^2), and tears
-/// beyond. A lone particle that leaves others or a wall keeps the dilation of its last neighbours:
-/// its density falls without bound, the next it meets is pulled in, and no wall pushes it back.
+/// Density excess [-] below which water tears: it bears the tension of a column of h/2,
+/// -g h/(2 c0^2). What is torn keeps its excess and pushes as at the limit: a particle that leaves
+/// others loses the density that they summed up to, and must gain it again where it lands. Were
+/// the excess itself limited, every landing would blow the water up: a dam break gained a tenth.
 FN double tension_floor(double gravity, double h, double sound_speed)
 {
     return -0.5 * gravity * h / (sound_speed * sound_speed);
+}
+
+/// The density excess that pushes. @param floor  of tension_floor
+FN float tension_bearing(float s, float floor) { return s > floor ? s : floor; }
+
+/// Excess of a particle without neighbours that began inside water: its own share of the sum, less
+/// one [-]. Nothing can lose more. @param mass  [kg], per metre in 2-D
+FN double excess_alone(double h, int dimensions, double mass, double rho0)
+{
+    return kernel_constant(h, dimensions) * mass / rho0 - 1.0;
+}
+
+/// tait_energy with the push limited at `floor`.
+FN double tait_energy_torn(double s, double floor, double b, double rest_density)
+{
+    double bearing = s > floor ? s : floor, r = 1.0 + bearing;
+    double push = (double)tait_pressure((float)bearing, (float)b) / (rest_density * r * r);
+    return tait_energy(bearing, b, rest_density) + push * (s - bearing);
 }
 
 /// Inverse: s = (1 + p/b)^(1/7) - 1 [-], by its series; error below 1e-6 for p/b < 0.2.
