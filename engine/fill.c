@@ -70,12 +70,36 @@ static Vec3 mean_place(const Box *box, int i, int j, int k)
     return mean;
 }
 
+/// A standing wave at rest at its highest, to first order: a = H/2, k X along the tank,
+/// xi = -a (cosh K/sinh kd) sin kX, zeta = a (sinh K/sinh kd) cos kX (Dean & Dalrymple 1991, 4.6).
+static Vec3 standing_shift(const Scene *scene, Vec3 mean)
+{
+    const Domain *domain = &scene->domain;
+    double k = scene->fluid.standing_mode * PI / (domain->max.x - domain->min.x);
+    double depth = scene->fluid.level - domain->min.z, along = k * (mean.x - domain->min.x);
+    double e = exp(k * (mean.z - scene->fluid.level)), E = exp(-2 * k * depth);
+    double amplitude = 0.5 * scene->fluid.standing_height / (1 - E);
+    return vec3(-amplitude * (e + E / e) * sin(along), 0, amplitude * (e - E / e) * cos(along));
+}
+
+/// Its dynamic pressure over rho g there, less the lift: a particle keeps the rest [m].
+static double standing_pressure(const Scene *scene, Vec3 mean, Vec3 shift)
+{
+    const Domain *domain = &scene->domain;
+    double k = scene->fluid.standing_mode * PI / (domain->max.x - domain->min.x);
+    double depth = scene->fluid.level - domain->min.z;
+    double e = exp(k * (mean.z - scene->fluid.level)), E = exp(-2 * k * depth);
+    double crest = 0.5 * scene->fluid.standing_height * cos(k * (mean.x - domain->min.x));
+    return crest * (e + E / e) / (1 + E) - shift.z;
+}
+
 static void write_fluid(const Box *box, Fill *fill, int n, Vec3 mean, Vec3 shift)
 {
     const WaveState *waves = box->waves;
     double below = box->surface - mean.z;
     fill->fluid_position[n] = vec3_add(mean, shift);
     fill->fluid_velocity[n] = vec3(0, 0, 0);
+    if (box->scene->fluid.standing_height > 0) below += standing_pressure(box->scene, mean, shift);
     if (waves) {
         fill->fluid_velocity[n] = waves->sea
                                       ? waves_orbit_velocity(waves, mean, 0)
@@ -103,6 +127,7 @@ static int fill_plane(const Box *box, Fill *fill, int i, int first)
         for (int k = 0; k < box->lattice.count[2]; k++) {
             Vec3 mean = mean_place(box, i, j, k), shift = vec3(0, 0, 0);
             if (box->waves) shift = waves_displacement(box->waves, mean, 0);
+            if (box->scene->fluid.standing_height > 0) shift = standing_shift(box->scene, mean);
             if (box->scene->body_count && carve_hits(box->scene, box->plan, vec3_add(mean, shift)))
                 continue;
             if (first >= 0) write_fluid(box, fill, first + count, mean, shift);

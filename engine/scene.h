@@ -61,6 +61,8 @@ typedef struct Fluid {
     double level;             ///< still-water level z [m]
     int block_count;          ///< 0 = the whole domain is filled up to `level`
     FluidBlock blocks[SCENE_FLUID_BLOCKS_MAX];
+    double standing_height; ///< crest to trough of a standing wave at t = 0 [m]; 0 = none
+    int standing_mode;      ///< its half waves in the tank's length
 } Fluid;
 
 typedef enum WaveKind {

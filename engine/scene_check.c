@@ -78,6 +78,23 @@ static bool check_blocks(const JsonReader *reader, const Scene *scene)
     return true;
 }
 
+static bool check_standing_wave(const JsonReader *reader, const Scene *scene)
+{
+    const Fluid *fluid = &scene->fluid;
+    if (!(fluid->standing_height > 0)) return true;
+    if (scene->domain.kind != DOMAIN_TANK || fluid->block_count)
+        return table_refuse(reader, "fluid.standing_wave", NULL,
+                            "must only be given for a tank that is filled up to fluid.level_m");
+    double depth = water_depth(scene);
+    double number = fluid->standing_mode * PI / (scene->domain.max.x - scene->domain.min.x);
+    double most =
+        mind(wave_breaking_height(number, depth), 2 * (scene->domain.max.z - scene->fluid.level));
+    if (fluid->standing_height <= most) return true;
+    return table_refuse_number(reader, "fluid.standing_wave.height_m", fluid->standing_height,
+                               "must be <= %.4g m here (0.142 L tanh(kd), below the walls' top)",
+                               most);
+}
+
 /// A speed of sound below that of long waves makes compressible nonsense.
 static bool check_sound_speed(const JsonReader *reader, const Scene *scene)
 {
@@ -250,6 +267,7 @@ bool case_check(const JsonReader *reader, const Scene *scene)
 {
     TRY(check_domain(reader, scene));
     TRY(check_blocks(reader, scene));
+    TRY(check_standing_wave(reader, scene));
     TRY(check_sound_speed(reader, scene));
     TRY(check_waves(reader, scene));
     TRY(case_check_bodies(reader, scene));

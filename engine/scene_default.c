@@ -23,6 +23,7 @@ Scene scene_default(void)
     fluid->sound_speed = 0;          // by the rule
     fluid->sound_speed_ratio = 10.0; // density within 1 %: Monaghan (1994), 10.1006/jcph.1994.1034
     fluid->gravity = 9.81;
+    fluid->standing_mode = 1;
     fluid->level = 0;
 
     Waves *waves = &scene.waves;

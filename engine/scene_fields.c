@@ -29,6 +29,12 @@ static const JsonField BLOCK_FIELDS[] = {
 };
 static const JsonTable BLOCK_TABLE = {BLOCK_FIELDS, COUNT(BLOCK_FIELDS), NULL};
 
+static const JsonField STANDING_FIELDS[] = {
+    {"height_m", FIELD_NUMBER, true, IN_CASE(scene.fluid.standing_height), .max = 50, .unit = "m"},
+    {"half_waves", FIELD_INTEGER, IN_CASE(scene.fluid.standing_mode), .min = 1, .max = 1000},
+};
+static const JsonTable STANDING_TABLE = {STANDING_FIELDS, COUNT(STANDING_FIELDS), NULL};
+
 static const JsonField FLUID_FIELDS[] = {
     {"spacing_m", FIELD_NUMBER, IN_CASE(scene.fluid.spacing), LENGTH_UP_TO(10)},
     {"smoothing_ratio", FIELD_NUMBER, IN_CASE(scene.fluid.smoothing_ratio), .min = 1.2, .max = 3},
@@ -42,6 +48,7 @@ static const JsonField FLUID_FIELDS[] = {
     {"blocks", FIELD_LIST, IN_CASE(scene.fluid.blocks), .table = &BLOCK_TABLE,
      .item_size = sizeof(FluidBlock), .counter_offset = offsetof(CaseFile, scene.fluid.block_count),
      .count_max = SCENE_FLUID_BLOCKS_MAX},
+    {"standing_wave", FIELD_OBJECT, .table = &STANDING_TABLE},
 };
 static const JsonTable FLUID_TABLE = {FLUID_FIELDS, COUNT(FLUID_FIELDS), NULL};
 
