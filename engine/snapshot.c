@@ -34,6 +34,8 @@ bool snapshot_create(const Scene *scene, const Plan *plan, Snapshot *snapshot, E
         line->node_count = scene->lines[l].segments + 1;
         line->diameter = scene->lines[l].diameter;
         line->name = scene->lines[l].name;
+        line->ashore[0] = scene->lines[l].anchor.body < 0;
+        line->ashore[1] = scene->lines[l].fairlead.body < 0;
         line->position = (float(*)[3])next;
         line->tension = next += 3 * line->node_count;
         next += line->node_count;

@@ -27,6 +27,7 @@ typedef struct LineSnapshot {
     double largest;       ///< tension so far [N]
     double touchdown;     ///< length on the bed [m]
     double snap_time;     ///< of the last snap [s], -INFINITY before the first
+    bool ashore[2];       ///< an end, first and last node, that no body holds: a post marks it
     int lift_off;         ///< last node on the bed next to one above it, -1 without
 } LineSnapshot;
 

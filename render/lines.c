@@ -171,7 +171,7 @@ bool lines_draw(Lines *lines, const Gl *gl, const Frame *frame, double veil, Err
     const Snapshot *snapshot = frame->snapshot;
     size_t room = 4 * TANK_EDGES;
     for (int l = 0; l < snapshot->line_count; l++)
-        room += 2 * (size_t)maxd(snapshot->lines[l].node_count, 0) + 8;
+        room += 2 * (size_t)maxd(snapshot->lines[l].node_count, 0) + 12;
     Batch batch = {scratch_need(&lines->vertices, room * sizeof *batch.vertices, error),
                    scratch_need(&lines->indices, room * 3 * sizeof *batch.indices, error), 0, 0};
     TRY(batch.vertices && batch.indices);
@@ -188,8 +188,12 @@ bool lines_draw(Lines *lines, const Gl *gl, const Frame *frame, double veil, Err
     }
     int anchors = batch.index_count;
     for (int l = 0; l < snapshot->line_count; l++)
-        close_strip(&batch, post_vertices(&snapshot->lines[l], 0, anchor,
-                                          batch.vertices + batch.vertex_count));
+        for (int e = 0; e < 2; e++) {
+            const LineSnapshot *line = &snapshot->lines[l];
+            if (line->ashore[e])
+                close_strip(&batch, post_vertices(line, e ? line->node_count - 1 : 0, anchor,
+                                                  batch.vertices + batch.vertex_count));
+        }
     int lift_offs = batch.index_count;
     for (int l = 0; l < snapshot->line_count; l++)
         close_strip(&batch, post_vertices(&snapshot->lines[l], snapshot->lines[l].lift_off,

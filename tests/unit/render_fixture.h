@@ -111,6 +111,7 @@ static inline void fixture_line(Fixture *fixture)
                                         .diameter = 0.0115,
                                         .name = "bow_line",
                                         .snap_time = -INFINITY,
+                                        .ashore = {true, false},
                                         .lift_off = -1};
 }
 
