@@ -134,6 +134,7 @@ static const char *const PASS_NAMES[CLOCK_COUNT] = {
     [CLOCK_SORT] = "sort",
     [CLOCK_EXTRAPOLATE] = "extrapolate",
     [CLOCK_EXTRAPOLATE_MOVING] = "extrapolate_moving",
+    [CLOCK_GRADIENT] = "gradient",
     [CLOCK_MOMENTUM] = "momentum",
     [CLOCK_DENSITY] = "density",
     [CLOCK_LOADS] = "loads",

@@ -16,6 +16,9 @@ enum { FLUID_BYTES = 150, FIXED_BYTES = 130, MOVING_BYTES = 270, RUN_BYTES = 200
 /// And per fluid particle where works are measured, padding of clusters included.
 enum { WORKS_BYTES = 70 };
 
+/// And where gradients are corrected.
+enum { GRADIENT_BYTES = 25 };
+
 void effects_name(EffectPlan effects[EFFECT_COUNT])
 {
     static const EffectPlan table[EFFECT_COUNT] = {
@@ -32,6 +35,7 @@ void effects_name(EffectPlan effects[EFFECT_COUNT])
     };
     memcpy(effects, table, sizeof table);
     effects[EFFECT_VISCOSITY].cost = effects[EFFECT_DIFFUSION].cost = COST_SAMPLED;
+    effects[EFFECT_GRADIENT].cost = COST_SAMPLED;
     effects[EFFECT_SURFACE].cost = COST_ELSEWHERE;
 }
 
@@ -63,6 +67,9 @@ static void choose_pairs(const Scene *scene, Plan *plan, const Fill *fill)
         water ? "fluid.alpha = %g" : "no water particles", fluid->alpha);
     set(plan, EFFECT_DIFFUSION, water && fluid->delta > 0, 4 * (size_t)fill->fluid_count,
         water ? "fluid.delta = %g" : "no water particles", fluid->delta);
+    bool corrected = fluid->gradient == GRADIENT_CORRECTED;
+    set(plan, EFFECT_GRADIENT, water && corrected, GRADIENT_BYTES * (size_t)fill->fluid_count,
+        water ? "fluid.gradient = %s" : "no water particles", corrected ? "corrected" : "plain");
     set(plan, EFFECT_MOVING_BOUNDARIES, moving > 0, 0,
         moving ? "%d dummies of ring, piston or bodies move" : "nothing but water moves", moving);
     set(plan, EFFECT_WALLS, fill->wall_count > 0, (size_t)FIXED_BYTES * (size_t)fill->wall_count,

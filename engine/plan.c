@@ -232,7 +232,8 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
     plan->wall_layers = (int)ceil(2 * scene->fluid.smoothing_ratio - 1e-6) - 1;
     plan->zone_width = scene->waves.kind == WAVES_NONE ? 0 : waves_zone_width(scene);
     plan->pair_mask = (scene->fluid.alpha > 0 ? PAIR_VISCOSITY : 0) |
-                      (scene->fluid.delta > 0 ? PAIR_DIFFUSION : 0);
+                      (scene->fluid.delta > 0 ? PAIR_DIFFUSION : 0) |
+                      (scene->fluid.gradient == GRADIENT_CORRECTED ? PAIR_GRADIENT : 0);
     effects_name(plan->effects);
     TRY(mesh_bodies(scene, plan, error));
     choose_sound_speed(scene, plan);

@@ -49,12 +49,15 @@ typedef struct FluidBlock {
     Vec3 min, max; ///< box filled with water at t = 0 [m]
 } FluidBlock;
 
+typedef enum GradientKind { GRADIENT_PLAIN, GRADIENT_CORRECTED } GradientKind;
+
 typedef struct Fluid {
     double spacing;           ///< initial particle distance dp [m], > 0
     double smoothing_ratio;   ///< h/dp, 1.2 to 3
     double density;           ///< rest density [kg/m^3]
     double alpha;             ///< artificial viscosity [-]
     double delta;             ///< density diffusion [-]
+    GradientKind gradient;    ///< of the kernel, in pressure forces
     double sound_speed;       ///< c0 [m/s]; 0 = by the rule (see plan.h)
     double sound_speed_ratio; ///< rule: c0 = ratio * largest expected speed, 7 to 20
     double gravity;           ///< [m/s^2], downwards

@@ -41,6 +41,7 @@ static const JsonField FLUID_FIELDS[] = {
     {"density_kgm3", FIELD_NUMBER, IN_CASE(scene.fluid.density), .min = 100, .max = 20000, .unit = "kg/m3"},
     {"alpha", FIELD_NUMBER, IN_CASE(scene.fluid.alpha), .max = 1},
     {"delta", FIELD_NUMBER, IN_CASE(scene.fluid.delta), .max = 1},
+    {"gradient", FIELD_CHOICE, IN_CASE(scene.fluid.gradient), .choices = {"plain", "corrected"}},
     {"sound_speed_ms", FIELD_NUMBER, IN_CASE(scene.fluid.sound_speed), .max = 5000, .unit = "m/s"},
     {"sound_speed_ratio", FIELD_NUMBER, IN_CASE(scene.fluid.sound_speed_ratio), .min = 7, .max = 20},
     {"gravity_ms2", FIELD_NUMBER, IN_CASE(scene.fluid.gravity), .min = 0.1, .max = 100, .unit = "m/s2"},

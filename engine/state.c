@@ -179,10 +179,10 @@ static bool place_and_measure(const Scene *scene, const Plan *plan, State *state
         state->bodies[b].fluid_moment = state->loads[b].moment;
     }
     if (scene->energy != ENERGY_NONE) state->energy_start = energy_levels(scene, state);
-    if (plan->pair_mask & PAIR_VISCOSITY)
-        state->pair_cost[0] = state->backend->pair_cost(state->particles, PAIR_VISCOSITY);
-    if (plan->pair_mask & PAIR_DIFFUSION)
-        state->pair_cost[1] = state->backend->pair_cost(state->particles, PAIR_DIFFUSION);
+    const unsigned bits[] = {PAIR_VISCOSITY, PAIR_DIFFUSION, PAIR_GRADIENT};
+    for (int i = 0; i < 3; i++)
+        if (plan->pair_mask & bits[i])
+            state->pair_cost[i] = state->backend->pair_cost(state->particles, bits[i]);
     return true;
 }
 

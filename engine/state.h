@@ -75,7 +75,7 @@ typedef struct State {
     EnergyLevels energy_start;                   ///< at t = 0, where the case asks for it
     Checkpoint checkpoint;                       ///< the last good state, for roll-back
     double host_seconds[EFFECT_COUNT];           ///< of them, in passes on the host [s]
-    double pair_cost[2]; ///< share of viscosity and diffusion in their sweeps [-]
+    double pair_cost[3]; ///< share of viscosity, diffusion, corrected gradients in their sweeps [-]
     Arena arena;
 } State;
 

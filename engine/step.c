@@ -188,6 +188,7 @@ static void share_clocks(const Plan *plan, State *state)
     memcpy(e, state->host_seconds, sizeof state->host_seconds);
     e[EFFECT_VISCOSITY] += c[CLOCK_MOMENTUM] * state->pair_cost[0];
     e[EFFECT_DIFFUSION] += c[CLOCK_DENSITY] * state->pair_cost[1];
+    e[EFFECT_GRADIENT] += c[CLOCK_GRADIENT] + c[CLOCK_MOMENTUM] * state->pair_cost[2];
     e[EFFECT_WALLS] += c[CLOCK_EXTRAPOLATE];
     e[EFFECT_MOVING_BOUNDARIES] += c[CLOCK_EXTRAPOLATE_MOVING] + c[CLOCK_DUMMIES];
     e[EFFECT_RING] += c[CLOCK_RING];
@@ -196,7 +197,7 @@ static void share_clocks(const Plan *plan, State *state)
     e[EFFECT_BODIES] += c[CLOCK_LOADS];
     e[EFFECT_ENERGY] += c[CLOCK_WORKS];
     state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] +
-                          c[CLOCK_MOMENTUM] * (1 - state->pair_cost[0]) +
+                          c[CLOCK_MOMENTUM] * (1 - state->pair_cost[0] - state->pair_cost[2]) +
                           c[CLOCK_DENSITY] * (1 - state->pair_cost[1]);
 }
 

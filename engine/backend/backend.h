@@ -21,7 +21,7 @@
 enum { OWNER_FIXED = -3, OWNER_PISTON = -2, OWNER_RING = -1 };
 
 /// Bits of the pair effects in a sweep's mask.
-enum { PAIR_VISCOSITY = 1 << 0, PAIR_DIFFUSION = 1 << 1 };
+enum { PAIR_VISCOSITY = 1 << 0, PAIR_DIFFUSION = 1 << 1, PAIR_GRADIENT = 1 << 2 };
 
 /// Where particles are at t = 0. All arrays are borrowed during create.
 typedef struct ParticleStart {
@@ -117,6 +117,7 @@ typedef enum BackendClock {
     CLOCK_SORT,
     CLOCK_EXTRAPOLATE,        ///< to fixed dummies
     CLOCK_EXTRAPOLATE_MOVING, ///< to moving ones
+    CLOCK_GRADIENT,
     CLOCK_MOMENTUM,
     CLOCK_DENSITY,
     CLOCK_LOADS,

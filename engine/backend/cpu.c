@@ -79,6 +79,9 @@ static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Er
     TRY(scratch_create(&b->scratch, &b->grid, slots, b->setup.threads, arena, error));
     for (int a = 0; a < 3; a++)
         b->fluid.rate[a] = (float *)b->scratch.slot[a];
+    for (int t = 0; t < 6 && (b->setup.pair_mask & PAIR_GRADIENT); t++)
+        TRY(b->fluid.correction[t] = arena_take(arena, (size_t)b->fluid.slot_capacity,
+                                                sizeof(float), "particles.correction", error));
     TRY(rows_create(&b->rows, &b->grid, arena, error));
     TRY(b->meet = arena_take(arena, (size_t)(b->grid.slab_count + 1) * (size_t)(b->grid.blocks + 2),
                              1, "slabs", error));
@@ -111,6 +114,10 @@ static Sweep make_sweep(Backend *b)
     sweep.tait_b = (float)(s->sound_speed * s->sound_speed * s->rest_density / TAIT_GAMMA);
     sweep.rest_density = (float)s->rest_density;
     sweep.unit = (float)b->grid.unit;
+    sweep.dimensions = s->dimensions;
+    // 5 alpha_D/h^2 of the slope, (2h)^2 of the offsets, V = m/rho0
+    sweep.moment_factor = (float)(20 * kernel_constant(s->smoothing_length, s->dimensions) *
+                                  s->particle_mass / s->rest_density);
     return sweep;
 }
 
@@ -266,7 +273,7 @@ static void sweep_block(const Backend *b, void (*function)(const Sweep *, int, i
 /// A half list leads into the own and the next slab, there into the own block and those beside it.
 /// The tasks of blocks that meet wait for each other in the order of their creation, so sums have
 /// the same bits for any number of threads; colours keep neighbours apart.
-void cpu_sweep_fluid(Backend *b, void (*function)(const Sweep *, int, int))
+void cpu_sweep_fluid(Backend *b, SweepFunction function)
 {
     int slabs = b->grid.slab_count, blocks = b->grid.blocks, width = blocks + 2;
     char *meet = b->meet; // never written: only places that tasks name
@@ -307,10 +314,11 @@ static void extrapolate_walls(Backend *b, int set)
 /// Reactions on the dummies of each body, summed in slot order: the same bits for any thread count.
 static void sum_loads(Backend *b, const Vec3 *about, BodyLoad *loads)
 {
+    SweepFunction loads_of = cpu_loads(b);
     int clusters = b->moving.cluster_count;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(b->setup.threads)
     for (int begin = 0; begin < clusters; begin += 32)
-        b->table->loads(&b->sweep, begin, begin + 32 < clusters ? begin + 32 : clusters);
+        loads_of(&b->sweep, begin, begin + 32 < clusters ? begin + 32 : clusters);
     double factor = b->sweep.constants.acceleration_factor * b->setup.particle_mass;
     const ParticleSet *m = &b->moving;
     for (int slot = 0; slot < clusters * CLUSTER; slot++) {
@@ -324,6 +332,29 @@ static void sum_loads(Backend *b, const Vec3 *about, BodyLoad *loads)
         loads[body].force = vec3_add(loads[body].force, force);
         loads[body].moment = vec3_add(loads[body].moment, vec3_cross(arm, force));
     }
+}
+
+SweepFunction cpu_acceleration(const Backend *b, unsigned mask)
+{
+    int viscous = (mask & PAIR_VISCOSITY) != 0, corrected = (mask & PAIR_GRADIENT) != 0;
+    return b->table->acceleration[viscous + 2 * corrected];
+}
+
+SweepFunction cpu_loads(const Backend *b)
+{
+    return b->table->loads[(b->setup.pair_mask & PAIR_GRADIENT) != 0];
+}
+
+/// Corrections of kernel gradients at the present places.
+static void correct_gradients(Backend *b)
+{
+    int clusters = b->fluid.cluster_count;
+    for (int t = 0; t < 6; t++)
+        memset(b->fluid.correction[t], 0, (size_t)clusters * CLUSTER * sizeof(float));
+    cpu_sweep_fluid(b, b->table->moments);
+#pragma omp parallel for schedule(static) num_threads(b->setup.threads)
+    for (int begin = 0; begin < clusters; begin += 64)
+        b->table->invert(&b->sweep, begin, begin + 64 < clusters ? begin + 64 : clusters);
 }
 
 static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *error)
@@ -342,11 +373,15 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
         extrapolate_walls(b, 1);
         LAP(CLOCK_EXTRAPOLATE_MOVING);
     }
+    if (b->setup.pair_mask & PAIR_GRADIENT) {
+        correct_gradients(b);
+        LAP(CLOCK_GRADIENT);
+    }
     if (b->setup.works) {
         works_before_momentum(b);
         LAP(CLOCK_WORKS);
     }
-    cpu_sweep_fluid(b, b->table->acceleration[(b->setup.pair_mask & PAIR_VISCOSITY) != 0]);
+    cpu_sweep_fluid(b, cpu_acceleration(b, b->setup.pair_mask));
     LAP(CLOCK_MOMENTUM);
     if (b->setup.body_count) {
         memset(loads, 0, (size_t)b->setup.body_count * sizeof *loads);
@@ -424,11 +459,13 @@ static double cpu_pair_cost(Backend *b, unsigned bit)
     int row = b->grid.slab_count / 2 * SLAB_ROWS * b->grid.across_rows;
     int begin = b->fluid.row_begin[row], rest = b->fluid.cluster_count - begin;
     int end = begin + (rest < SAMPLE ? rest : SAMPLE);
-    bool momentum = bit == PAIR_VISCOSITY;
+    unsigned on = b->setup.pair_mask | bit, off = on & ~bit;
+    SweepFunction sweeps[2] = {cpu_acceleration(b, off), cpu_acceleration(b, on)};
+    if (bit == PAIR_DIFFUSION) memcpy(sweeps, b->table->density, sizeof sweeps);
     double best[2] = {1e9, 1e9};
     for (int round = 0; round < 6; round++) {
         double start = cpu_clock();
-        (momentum ? b->table->acceleration : b->table->density)[round % 2](&b->sweep, begin, end);
+        sweeps[round % 2](&b->sweep, begin, end);
         best[round % 2] = mind(best[round % 2], cpu_clock() - start);
     }
     return best[1] > 0 ? maxd(0, 1 - best[0] / best[1]) : 0;
@@ -442,7 +479,8 @@ static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density
     zero_rates(b, 3);
     for (int set = 0; set < 2; set++)
         if (b->sweep.walls[set]->count) extrapolate_walls(b, set);
-    cpu_sweep_fluid(b, b->table->acceleration[(b->setup.pair_mask & PAIR_VISCOSITY) != 0]);
+    if (b->setup.pair_mask & PAIR_GRADIENT) correct_gradients(b);
+    cpu_sweep_fluid(b, cpu_acceleration(b, b->setup.pair_mask));
     for (int s = 0; s < slots; s++)
         for (int a = 0; a < 3 && b->fluid.id[s] >= 0; a++)
             acceleration[b->fluid.id[s]][a] =

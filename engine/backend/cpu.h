@@ -92,7 +92,11 @@ bool cpu_neighbours(Backend *backend, Error *error);
 void cpu_prune(Backend *backend);
 void cpu_refresh_boxes(Backend *backend); ///< when particles have moved since
 /// A sweep over all clusters of the fluid, block by block of each slab.
-void cpu_sweep_fluid(Backend *backend, void (*function)(const Sweep *, int, int));
+void cpu_sweep_fluid(Backend *backend, SweepFunction function);
+/// The momentum sweep of these PAIR_… bits.
+SweepFunction cpu_acceleration(const Backend *backend, unsigned mask);
+/// The sum of pushes on moving dummies.
+SweepFunction cpu_loads(const Backend *backend);
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
 double cpu_elevation(Backend *backend, double x, double y);
 double cpu_pressure(Backend *backend, Vec3 point, Vec3 normal);

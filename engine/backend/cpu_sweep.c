@@ -210,10 +210,13 @@ const SweepTable *AT_LEVEL(sweep_table)(void)
         AT_LEVEL(step_update_dynamic),
         AT_LEVEL(near_clusters),
         AT_LEVEL(near_prune),
-        {acceleration_plain, acceleration_viscous},
+        {acceleration_plain, acceleration_viscous, AT_LEVEL(gradient_plain),
+         AT_LEVEL(gradient_viscous)},
         {density_plain, density_diffusive},
         extrapolate,
-        loads,
+        {loads, AT_LEVEL(gradient_loads)},
+        AT_LEVEL(gradient_moments),
+        AT_LEVEL(gradient_invert),
     };
     return &table;
 }

@@ -48,7 +48,7 @@ static void keep_rates(Backend *b, int stage, int rates)
 
 /// Sweep with the walls and without them, an effect's bit not set, and keep both; rates are zero
 /// before and after.
-static void sweep_without(Backend *b, void (*plain)(const Sweep *, int, int), int rates)
+static void sweep_without(Backend *b, SweepFunction plain, int rates)
 {
     ParticleSet *walls[2] = {b->sweep.walls[0], b->sweep.walls[1]};
     for (int stage = INNER; stage <= PLAIN; stage++) {
@@ -61,7 +61,10 @@ static void sweep_without(Backend *b, void (*plain)(const Sweep *, int, int), in
     }
 }
 
-void works_before_momentum(Backend *b) { sweep_without(b, b->table->acceleration[0], 3); }
+void works_before_momentum(Backend *b)
+{
+    sweep_without(b, cpu_acceleration(b, b->setup.pair_mask & ~PAIR_VISCOSITY), 3);
+}
 
 /// Power of the moving dummies' pushes, with their velocities now, by owner [W].
 static MovingPower moving_power(const Backend *b)
@@ -87,7 +90,7 @@ void works_after_forces(Backend *b)
 {
     const int16_t *owner = b->sweep.moving_owner;
     b->sweep.moving_owner = b->works.anybody;
-    b->table->loads(&b->sweep, 0, b->moving.cluster_count);
+    cpu_loads(b)(&b->sweep, 0, b->moving.cluster_count);
     b->sweep.moving_owner = owner;
     b->works.power = moving_power(b);
 }

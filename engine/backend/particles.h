@@ -56,6 +56,7 @@ typedef struct ParticleSet {
     float *pressure;          ///< P = p/rho^2 [Pa m^6/kg^2]; 0 in padding
     float *dynamic;           ///< fluid: D = diffusion * (density excess less its hydrostatic part)
     float *rate[3];           ///< sums of the sweeps; fixed: none
+    float *correction[6];     ///< fluid, with PAIR_GRADIENT: B of physics/gradient.h
     int32_t *target[3];       ///< moving: places at the end of the step [unit]
     Boxes boxes;
     int *row_begin; ///< [rows + 1] first cluster of each row

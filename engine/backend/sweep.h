@@ -18,7 +18,12 @@ typedef struct Sweep {
     float tait_b;       ///< c0^2 rho0/7 [Pa]
     float rest_density; ///< [kg/m^3]
     float unit;         ///< [m]
+    int dimensions;
+    float moment_factor; ///< of M, summed with lengths over 2h: 20 alpha_D V [-]
 } Sweep;
+
+/// Of clusters begin..end.
+typedef void (*SweepFunction)(const Sweep *, int begin, int end);
 
 struct Backend;
 struct Advance;
@@ -39,15 +44,19 @@ typedef struct SweepTable {
     /// of whose particles, are within the reach [unit^2].
     void (*prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin, int end,
                   float reach_squared, bool exact);
-    /// Acceleration sums of fluid clusters begin..end into fluid->rate, by mask; adds to the rates
-    /// of clusters in the own and the next slab.
-    void (*acceleration[2])(const Sweep *, int begin, int end);
+    /// Acceleration sums of the fluid into fluid->rate, by mask (sweep_mask); adds to the rates of
+    /// clusters in the own and the next slab.
+    SweepFunction acceleration[4];
     /// Density sums into fluid->rate[0].
-    void (*density[2])(const Sweep *, int begin, int end);
+    SweepFunction density[2];
     /// Pressure of dummy clusters begin..end of walls[set] from the fluid around them.
     void (*extrapolate)(const Sweep *, int set, int begin, int end);
-    /// Sums of the fluid's push on the body dummies of walls[1] into their rate.
-    void (*loads)(const Sweep *, int begin, int end);
+    /// Sums of the fluid's push on the body dummies of walls[1] into their rate: with plain and
+    /// with corrected gradients.
+    SweepFunction loads[2];
+    /// Moments of the fluid's neighbours into fluid->correction, which was zero, like the
+    /// accelerations; and their inverses, cluster by cluster.
+    SweepFunction moments, invert;
 } SweepTable;
 
 #if defined(__x86_64__)
@@ -69,6 +78,11 @@ void AT_LEVEL(step_update_pressure)(struct Backend *);
 void AT_LEVEL(step_update_dynamic)(struct Backend *);
 int AT_LEVEL(near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
                             float reach_squared, uint32_t *entry, int room);
+void AT_LEVEL(gradient_moments)(const Sweep *, int begin, int end);
+void AT_LEVEL(gradient_invert)(const Sweep *, int begin, int end);
+void AT_LEVEL(gradient_plain)(const Sweep *, int begin, int end);
+void AT_LEVEL(gradient_viscous)(const Sweep *, int begin, int end);
+void AT_LEVEL(gradient_loads)(const Sweep *, int begin, int end);
 void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
                           int end, float reach_squared, bool exact);
 #endif

@@ -1,0 +1,215 @@
+/// Momentum with corrected kernel gradients (physics/gradient.h), in sweeps of its own: the plain
+/// ones know nothing of it. First the moments of every particle's neighbours, then their inverses,
+/// then the forces. Compiled once per instruction level (sweep.h).
+#include "backend/visits.h"
+#include "physics/gradient.h"
+
+/// Matrices of particles, an array a term.
+typedef struct Terms {
+    float *term[GRADIENT_TERMS];
+} Terms;
+
+FN Terms terms_of(const ParticleSet *fluid)
+{
+    Terms t;
+    memcpy(t.term, fluid->correction, sizeof t.term);
+    return t;
+}
+
+FN Symmetric terms_load(const Terms *t, size_t base)
+{
+    Symmetric m = {lanes_load(t->term[0] + base), lanes_load(t->term[1] + base),
+                   lanes_load(t->term[2] + base), lanes_load(t->term[3] + base),
+                   lanes_load(t->term[4] + base), lanes_load(t->term[5] + base)};
+    return m;
+}
+
+FN void terms_store(const Terms *t, size_t base, Symmetric m)
+{
+    lanes_store(t->term[0] + base, m.xx);
+    lanes_store(t->term[1] + base, m.yy);
+    lanes_store(t->term[2] + base, m.zz);
+    lanes_store(t->term[3] + base, m.xy);
+    lanes_store(t->term[4] + base, m.xz);
+    lanes_store(t->term[5] + base, m.yz);
+}
+
+/// One particle's matrix in all lanes.
+FN Symmetric terms_own(const Terms *t, int i)
+{
+    Symmetric m = {lanes_all(t->term[0][i]), lanes_all(t->term[1][i]), lanes_all(t->term[2][i]),
+                   lanes_all(t->term[3][i]), lanes_all(t->term[4][i]), lanes_all(t->term[5][i])};
+    return m;
+}
+
+FN Symmetric no_terms(void)
+{
+    Symmetric m = {lanes_all(0), lanes_all(0), lanes_all(0),
+                   lanes_all(0), lanes_all(0), lanes_all(0)};
+    return m;
+}
+
+FN Symmetric terms_sum(Symmetric a, Symmetric b)
+{
+    return gradient_weigh(lanes_all(1), a, lanes_all(1), b);
+}
+
+/// Moments: one particle and the eight at `base`, which have the same share in each other's.
+FN void visit_moment(const Self *self, const Arrays *other, size_t base, float support,
+                     const Terms *react, Symmetric *sum)
+{
+    Offset d = offset_to(self, other, base);
+    // lengths over the support: their fifth power in units would not be a float
+    Lanes scale = lanes_all(1.0f / support);
+    Lanes slope = kernel_slope(scale * pair_closeness(offset_square(d), support));
+    Symmetric m = gradient_moment(slope, scale * d.x, scale * d.y, scale * d.z);
+    *sum = terms_sum(*sum, m);
+    if (react) terms_store(react, base, terms_sum(terms_load(react, base), m));
+}
+
+FN void moment_of_particle(const Sweep *sweep, const Arrays *fluid, const Terms *terms, int i,
+                           int l)
+{
+    const float support = sweep->constants.support;
+    const Self self = self_of(fluid, i * CLUSTER + l);
+    Symmetric sum = no_terms();
+    Visits visits = visits_of(sweep->fluid_fluid, i, l);
+    for (size_t base; visits_next(&visits, &base);)
+        visit_moment(&self, fluid, base, support, terms, &sum);
+    visit_moment(&self, fluid, (size_t)i * CLUSTER, support, NULL, &sum);
+    for (int set = 0; set < 2; set++) {
+        if (!has_walls(sweep, set, i)) continue;
+        const Arrays walls = arrays_of(sweep->walls[set]);
+        visits = visits_of(sweep->fluid_wall[set], i, l);
+        for (size_t base; visits_next(&visits, &base);)
+            visit_moment(&self, &walls, base, support, NULL, &sum);
+    }
+    const Lanes total[GRADIENT_TERMS] = {sum.xx, sum.yy, sum.zz, sum.xy, sum.xz, sum.yz};
+    for (int t = 0; t < GRADIENT_TERMS; t++)
+        terms->term[t][i * CLUSTER + l] += lanes_total(total[t]);
+}
+
+void AT_LEVEL(gradient_moments)(const Sweep *sweep, int begin, int end)
+{
+    const Arrays fluid = arrays_of(sweep->fluid);
+    const Terms terms = terms_of(sweep->fluid);
+    for (int i = begin; i < end; i++)
+        for (int l = 0; l < CLUSTER; l++)
+            if (sweep->fluid->id[i * CLUSTER + l] >= 0)
+                moment_of_particle(sweep, &fluid, &terms, i, l);
+}
+
+void AT_LEVEL(gradient_invert)(const Sweep *sweep, int begin, int end)
+{
+    const Terms terms = terms_of(sweep->fluid);
+    const GradientLimits limits = gradient_limits(sweep->dimensions);
+    const Lanes factor = lanes_all(sweep->moment_factor);
+    for (size_t base = (size_t)begin * CLUSTER; base < (size_t)end * CLUSTER; base += CLUSTER) {
+        Symmetric m = terms_load(&terms, base);
+        m = gradient_weigh(factor, m, lanes_all(0), m);
+        if (sweep->dimensions == 2) m.yy = lanes_all(1);
+        terms_store(&terms, base, gradient_correction(m, limits));
+    }
+}
+
+/// Momentum: one particle and the eight at `base`. @param weights  P_i B_i + P_k B_k
+FN void visit_force(const Self *self, const Arrays *other, size_t base, const SweepConstants c,
+                    Symmetric weights, bool viscous, bool react, Lanes sum[3])
+{
+    Offset d = offset_to(self, other, base);
+    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.support);
+    Lanes slope = kernel_slope(closeness), drag = lanes_all(0);
+    // no pressures: what is left is viscosity
+    if (viscous) drag = pair_force(closeness, r2, drag, approach_of(self, other, base, d), c);
+    Lanes x = slope * (weights.xx * d.x + weights.xy * d.y + weights.xz * d.z) + drag * d.x;
+    Lanes y = slope * (weights.xy * d.x + weights.yy * d.y + weights.yz * d.z) + drag * d.y;
+    Lanes z = slope * (weights.xz * d.x + weights.yz * d.y + weights.zz * d.z) + drag * d.z;
+    sum[0] += x;
+    sum[1] += y;
+    sum[2] += z;
+    if (!react) return;
+    lanes_store(other->rate[0] + base, lanes_load(other->rate[0] + base) - x);
+    lanes_store(other->rate[1] + base, lanes_load(other->rate[1] + base) - y);
+    lanes_store(other->rate[2] + base, lanes_load(other->rate[2] + base) - z);
+}
+
+FN Symmetric fluid_weights(const Self *self, Symmetric own, const Arrays *fluid, const Terms *terms,
+                           size_t base)
+{
+    return gradient_weigh(self->pressure, own, lanes_load(fluid->pressure + base),
+                          terms_load(terms, base));
+}
+
+/// A dummy has the correction of the particle it meets.
+FN Symmetric wall_weights(const Self *self, Symmetric own, const Arrays *walls, size_t base)
+{
+    return gradient_weigh(self->pressure, own, lanes_load(walls->pressure + base), own);
+}
+
+FN void force_of_particle(const Sweep *sweep, const Arrays *fluid, const Terms *terms, int i, int l,
+                          bool viscous)
+{
+    const SweepConstants c = sweep->constants;
+    const Self self = self_of(fluid, i * CLUSTER + l);
+    const Symmetric own = terms_own(terms, i * CLUSTER + l);
+    Lanes sum[3] = {lanes_all(0), lanes_all(0), lanes_all(0)};
+    Visits visits = visits_of(sweep->fluid_fluid, i, l);
+    for (size_t base; visits_next(&visits, &base);)
+        visit_force(&self, fluid, base, c, fluid_weights(&self, own, fluid, terms, base), viscous,
+                    true, sum);
+    size_t same = (size_t)i * CLUSTER;
+    visit_force(&self, fluid, same, c, fluid_weights(&self, own, fluid, terms, same), viscous,
+                false, sum);
+    for (int set = 0; set < 2; set++) {
+        if (!has_walls(sweep, set, i)) continue;
+        const Arrays walls = arrays_of(sweep->walls[set]);
+        visits = visits_of(sweep->fluid_wall[set], i, l);
+        for (size_t base; visits_next(&visits, &base);)
+            visit_force(&self, &walls, base, c, wall_weights(&self, own, &walls, base), false,
+                        false, sum);
+    }
+    for (int a = 0; a < 3; a++)
+        fluid->rate[a][i * CLUSTER + l] += lanes_total(sum[a]);
+}
+
+FN void forces_of_clusters(const Sweep *sweep, int begin, int end, bool viscous)
+{
+    const Arrays fluid = arrays_of(sweep->fluid);
+    const Terms terms = terms_of(sweep->fluid);
+    for (int i = begin; i < end; i++)
+        for (int l = 0; l < CLUSTER; l++)
+            if (sweep->fluid->id[i * CLUSTER + l] >= 0)
+                force_of_particle(sweep, &fluid, &terms, i, l, viscous);
+}
+
+void AT_LEVEL(gradient_plain)(const Sweep *sweep, int begin, int end)
+{
+    forces_of_clusters(sweep, begin, end, false);
+}
+void AT_LEVEL(gradient_viscous)(const Sweep *sweep, int begin, int end)
+{
+    forces_of_clusters(sweep, begin, end, true);
+}
+
+/// What water pushes a dummy with is what the dummy pushes it with.
+void AT_LEVEL(gradient_loads)(const Sweep *sweep, int begin, int end)
+{
+    ParticleSet *wall = sweep->walls[1];
+    const SweepConstants c = sweep->constants;
+    const Arrays walls = arrays_of(wall), fluid = arrays_of(sweep->fluid);
+    const Terms terms = terms_of(sweep->fluid);
+    for (int slot = begin * CLUSTER; slot < end * CLUSTER; slot++) {
+        int i = slot / CLUSTER, id = wall->id[slot];
+        Lanes sum[3] = {lanes_all(0), lanes_all(0), lanes_all(0)};
+        if (id >= 0 && sweep->moving_owner[id] >= 0 && sweep->wall_fluid[1]->count[i]) {
+            const Self self = self_of(&walls, slot);
+            Visits visits = visits_of(sweep->wall_fluid[1], i, slot % CLUSTER);
+            for (size_t base; visits_next(&visits, &base);)
+                visit_force(&self, &fluid, base, c,
+                            wall_weights(&self, terms_load(&terms, base), &fluid, base), false,
+                            false, sum);
+        }
+        for (int a = 0; a < 3; a++)
+            wall->rate[a][slot] = lanes_total(sum[a]);
+    }
+}
