@@ -15,7 +15,7 @@
 static Error error;
 
 /// A scene in memory: 2-D tank 2 m long, 0.5 m deep.
-static Scene tank_2d(double spacing)
+static inline Scene tank_2d(double spacing)
 {
     Scene scene = scene_default();
     scene.domain.kind = DOMAIN_TANK;
@@ -32,7 +32,7 @@ typedef struct Run {
     State *state;
 } Run;
 
-static Run *start(const Scene *scene, int threads)
+static inline Run *start(const Scene *scene, int threads)
 {
     Run *run = calloc(1, sizeof *run);
     run->scene = *scene;
@@ -44,7 +44,7 @@ static Run *start(const Scene *scene, int threads)
     return run;
 }
 
-static void advance_to(Run *run, double time)
+static inline void advance_to(Run *run, double time)
 {
     while (run->state->time < time)
         if (!step_advance(&run->scene, &run->plan, run->state, &error)) {
@@ -54,14 +54,14 @@ static void advance_to(Run *run, double time)
         }
 }
 
-static void finish(Run *run)
+static inline void finish(Run *run)
 {
     state_destroy(run->state);
     plan_destroy(&run->plan);
     free(run);
 }
 
-static Scene basin_2d(double spacing)
+static inline Scene basin_2d(double spacing)
 {
     Scene scene = tank_2d(spacing);
     scene.domain.kind = DOMAIN_BASIN;
