@@ -54,6 +54,7 @@ struct Session {
     char base_folder[SCENE_PATH_SIZE]; ///< of the first run; later ones append -2, -3, …
     int run_number;
     Window window;
+    double paced_wall, paced_time; ///< since when a domain of lines keeps to the clock
     double status_at, flushed_at;
     double speed, particle_steps_per_second;
     int share_count;
@@ -239,6 +240,12 @@ static void fail(Session *session, const char *message)
     wake(&session->wake);
 }
 
+static void begin_pace(Session *session)
+{
+    session->paced_wall = clock_seconds();
+    session->paced_time = session->state->time;
+}
+
 /// Everything that begins anew with a State: sampling, measuring, health.
 static void begin_run(Session *session)
 {
@@ -249,6 +256,7 @@ static void begin_run(Session *session)
     session->speed = session->particle_steps_per_second = 0;
     session->share_count = 0;
     begin_window(session, clock_seconds());
+    begin_pace(session);
     take_sample(session);
     publish_status(session);
 }
@@ -282,6 +290,7 @@ static bool carry_out_run(Session *session, RunAction action, Error *error)
     case ACTION_START:
         session->run_state = RUN_RUNNING;
         begin_window(session, clock_seconds());
+        begin_pace(session);
         return true;
     case ACTION_PAUSE:
         session->run_state = RUN_PAUSED;
@@ -374,6 +383,15 @@ static void answer_requests(Session *session)
 
 // ---- the thread ---------------------------------------------------------------------------------
 
+/// Lines without water are many times faster than they are: nobody could watch or steer them.
+static void keep_pace(Session *session)
+{
+    if (session->scene->domain.kind != DOMAIN_LINES) return;
+    double elapsed = clock_seconds() - session->paced_wall;
+    double ahead = session->state->time - session->paced_time - elapsed;
+    if (ahead > 0.005) bell_wait(&session->bell, ahead < STATUS_INTERVAL ? ahead : STATUS_INTERVAL);
+}
+
 /// Snaps and breaks of lines since the last look.
 static void tell_line_events(Session *session)
 {
@@ -406,6 +424,7 @@ static void step(Session *session)
     }
     tell_line_events(session);
     take_sample(session);
+    keep_pace(session);
 }
 
 static void housekeeping(Session *session)

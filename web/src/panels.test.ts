@@ -34,7 +34,7 @@ test("two bodies have panels of their own, two lines share one and are named", (
   const panels = panelsOf(columns);
   assert.deepEqual(panels.slice(0, 2).map(({ title }) => title), ["Motion, barge", "Motion, work boat"]);
   const tension = panels.find(({ id }) => id === "tension")!;
-  assert.deepEqual(tension.traces.slice(0, 2).map(({ label }) => label), ["fore fairlead", "fore anchor"]);
+  assert.deepEqual(tension.traces.slice(0, 2).map(({ label }) => label), ["fore fairlead", "aft fairlead"]);
 });
 
 test("a still tank with a gauge only has one panel", () => {

@@ -44,6 +44,8 @@ type Rule = {
   shown: boolean;
   /** quantities drawn at first; the others wait in the legend */
   first: RegExp;
+  /** the same where several owners share the panel */
+  firstOfMany?: RegExp;
   /** what is left of a quantity's name in a legend */
   shorten: (quantity: string) => string;
 };
@@ -54,7 +56,7 @@ const asIs = (quantity: string): string => quantity;
 const RULES: readonly Rule[] = [
   { id: "translation", title: "Motion", takes: /^(surge|sway|heave)_m$/, perOwner: true, shown: true, first: ANY, shorten: asIs },
   { id: "rotation", title: "Rotation", takes: /^(roll|pitch|yaw)_deg$/, perOwner: true, shown: true, first: ANY, shorten: asIs },
-  { id: "tension", title: "Line tension", takes: /tension_n$/, perOwner: false, shown: true, first: /^(fairlead|anchor)/, shorten: (quantity) => quantity.replace(/_?tension$/, "") },
+  { id: "tension", title: "Line tension", takes: /tension_n$/, perOwner: false, shown: true, first: /^(fairlead|anchor)/, firstOfMany: /^fairlead/, shorten: (quantity) => quantity.replace(/_?tension$/, "") },
   { id: "elevation", title: "Wave elevation", takes: /^elevation_m$/, perOwner: false, shown: true, first: ANY, shorten: () => "" },
   { id: "force", title: "Water force", takes: /^fluid_f[xyz]_n$/, perOwner: true, shown: true, first: /fz/, shorten: forceName },
   { id: "pressure", title: "Pressure", takes: /^pressure_pa$/, perOwner: false, shown: true, first: ANY, shorten: () => "" },
@@ -109,10 +111,11 @@ export function panelsOf(columns: readonly string[]): Panel[] {
 function panelOf(rule: Rule, id: string, title: string, columns: readonly Column[]): Panel {
   const manyOwners = !rule.perOwner && new Set(columns.map(({ owner }) => owner)).size > 1;
   const unit = columns[0]?.unit ?? "";
+  const first = (manyOwners ? rule.firstOfMany : undefined) ?? rule.first;
   const traces = columns.map(({ index, owner, quantity }, colour) => {
     const short = readable(rule.shorten(quantity));
     const label = manyOwners || short === "" ? `${readable(owner)} ${short}`.trim() : short;
-    return { column: index, label, colour, shown: rule.first.test(quantity) };
+    return { column: index, label, colour, shown: first.test(quantity) };
   });
   // primary traces take the palette's first colours, whatever the order of the columns
   const ordered = [...traces].sort((a, b) => Number(b.shown) - Number(a.shown));
