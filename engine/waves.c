@@ -1,25 +1,18 @@
 #include "waves.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "physics/wave_theory.h"
-#include "piston.h"
 #include "sea.h"
 #include "wave_orbits.h"
 
 /// Turning further, or changing the period by more than this share, takes the old sea down first.
 static const double FAR_HEADING = 60 * PI / 180;
 static const double FAR_PERIOD = 0.30;
-/// Expected largest of 1000 waves over the significant height, Rayleigh: sqrt(ln(1000)/2).
-/// Source: Longuet-Higgins (1952), J. Mar. Res. 11, 245.
-static const double LARGEST_OF_SEA = 1.86;
 /// A layer runs this share of its rise before the next may begin.
 static const double LAYER_SPACING = 1.0 / 3;
-/// Width of the relaxation zone and length of the beach in longest wave lengths (docs/physics.md).
 /// Orbits may miss those of the theory by this share of the height.
 static const double MISFIT = 0.01;
-static const double ZONE_LENGTHS = 0.75, BEACH_LENGTHS = 1.0;
 
 double wave_number_airy(double angular_frequency, double depth, double gravity)
 {
@@ -44,7 +37,7 @@ static double centre_phase(const WaveTrain *train, double time)
 
 /// Coefficients of the asked wave: by its theory, and to second order where that has no such wave
 /// (beyond breaking) or where its orbits are too sharp at the crest to be followed.
-static WaveTerms terms_create(const Scene *scene, const WaveTarget *target)
+static WaveTerms terms_create(const Scene *scene, const WaveTarget *target, WaveTheory *theory)
 {
     double level = scene->fluid.level, depth = basin_depth(scene), misfit = 0;
     SteadyWaveAsk ask = {.theory = scene->waves.theory,
@@ -55,8 +48,10 @@ static WaveTerms terms_create(const Scene *scene, const WaveTarget *target)
     SteadyWave wave;
     if (target->height > 0 && steady_wave_solve(&ask, &wave)) {
         WaveTerms terms = wave_orbits_terms(&wave, level, &misfit);
+        *theory = wave.theory;
         if (misfit < MISFIT * target->height) return terms;
     }
+    *theory = WAVE_THEORY_STOKES2;
     double omega = 2 * PI / target->period;
     double number = wave_number_airy(omega, depth, scene->fluid.gravity);
     return wave_terms(target->height / 2, number, omega, depth, level);
@@ -70,7 +65,7 @@ static WaveTrain train_create(const Scene *scene, const WaveTarget *asked, doubl
     const Domain *domain = &scene->domain;
     WaveTrain train = {0};
     train.amplitude = target->height / 2;
-    train.terms = terms_create(scene, target);
+    train.terms = terms_create(scene, target, &train.theory);
     train.terms.cos_heading = cos(target->heading);
     train.terms.sin_heading = domain->dimensions == 2 ? 0 : sin(target->heading);
     train.centre_x = (domain->min.x + domain->max.x) / 2;
@@ -436,90 +431,4 @@ Vec3 waves_zone_velocity(const WaveState *waves, Vec3 point, double time)
         sum = motion_add(sum, w, driftless(w, p, share), w->weight);
     }
     return sum;
-}
-
-// ---------------------------------------------------------------------------- what to warn of
-
-static double wave_length(const Scene *scene, double period)
-{
-    return 2 * PI / wave_number_airy(2 * PI / period, basin_depth(scene), scene->fluid.gravity);
-}
-
-double waves_zone_width(const Scene *scene)
-{
-    if (scene->waves.kind == WAVES_NONE || scene->domain.kind == DOMAIN_TANK) return 0;
-    if (scene->waves.zone_width > 0) return scene->waves.zone_width;
-    double longest = scene->waves.initial.period;
-    if (scene->waves.period_limits.max > longest) longest = scene->waves.period_limits.max;
-    double lengths = scene->domain.kind == DOMAIN_FLUME ? BEACH_LENGTHS : ZONE_LENGTHS;
-    return lengths * wave_length(scene, longest);
-}
-
-double waves_wall_reach(const Scene *scene)
-{
-    const Waves *w = &scene->waves;
-    if (w->kind == WAVES_NONE) return 0;
-    double height = maxd(w->initial.height, w->height_limits.max);
-    double k = 2 * PI / wave_length(scene, maxd(w->initial.period, w->period_limits.max));
-    double kd = k * basin_depth(scene);
-    // first order at the surface, a quarter more for the second; of a sea the largest of 1000 waves
-    double ratio = scene->domain.kind == DOMAIN_FLUME ? piston_stroke_ratio(kd) : 1 / tanh(kd);
-    return 1.25 * 0.5 * height * (w->kind == WAVES_IRREGULAR ? LARGEST_OF_SEA : 1) * ratio;
-}
-
-/// Appends one warning; counts it even where the text has no room left.
-static void warn(char *text, int size, int *count, const char *warning)
-{
-    int used = size > 0 ? (int)strlen(text) : 0;
-    if (size > 0) snprintf(text + used, (size_t)(size - used), "%s%s", *count ? "; " : "", warning);
-    (*count)++;
-}
-
-int waves_warnings(const Scene *scene, char *text, int size)
-{
-    int count = 0;
-    char line[200];
-    if (size > 0) text[0] = '\0';
-    if (scene->waves.kind == WAVES_NONE) return 0;
-    const WaveTarget *sea = &scene->waves.initial;
-    double depth = basin_depth(scene), length = wave_length(scene, sea->period);
-    double breaking = wave_breaking_height(2 * PI / length, depth);
-    double largest = sea->height * (scene->waves.kind == WAVES_IRREGULAR ? LARGEST_OF_SEA : 1);
-    const char *which =
-        scene->waves.kind == WAVES_IRREGULAR ? "largest of 1000 waves, 1.86 Hs =" : "wave height";
-    if (largest > 0.8 * breaking) {
-        snprintf(line, sizeof line,
-                 "%s %.3g m %s: %.0f %% of the breaking height 0.142 L tanh(kd) = %.3g m (Miche)",
-                 which, largest, largest > breaking ? "breaks" : "is near breaking",
-                 100 * largest / breaking, breaking);
-        warn(text, size, &count, line);
-    }
-    double resolution = sea->height / scene->fluid.spacing;
-    if (sea->height > 0 && resolution < 5) {
-        snprintf(line, sizeof line,
-                 "H/dp = %.2g: under 5 spacings to a wave height waves lose height", resolution);
-        warn(text, size, &count, line);
-    }
-    // Ursell's number: beyond 26 Stokes' waves grow a false crest in their trough.
-    double ursell = sea->height * length * length / (depth * depth * depth);
-    bool stokes = scene->waves.theory == WAVE_THEORY_STOKES2 ||
-                  scene->waves.theory == WAVE_THEORY_STOKES5 || sea->height > breaking;
-    if (ursell > 26 && stokes && scene->waves.kind == WAVES_REGULAR) {
-        snprintf(line, sizeof line,
-                 "water is too shallow for Stokes' waves (Ursell number H L^2/d^3 = %.3g > 26)",
-                 ursell);
-        warn(text, size, &count, line);
-    }
-    if (scene->domain.kind != DOMAIN_BASIN) return count;
-    const Domain *domain = &scene->domain;
-    double inside = domain->max.x - domain->min.x;
-    if (domain->dimensions == 3) inside = mind(inside, domain->max.y - domain->min.y);
-    inside -= 2 * waves_zone_width(scene);
-    if (inside < length) {
-        snprintf(line, sizeof line,
-                 "undriven interior is %.3g m wide, under one wave length (%.3g m)", inside,
-                 length);
-        warn(text, size, &count, line);
-    }
-    return count;
 }

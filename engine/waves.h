@@ -14,6 +14,7 @@ typedef struct WaveTrain {
     double phase;              ///< at the centre of the basin [rad] and `time_origin`
     double time_origin;        ///< [s]
     double centre_x, centre_y; ///< phases are matched there [m]
+    WaveTheory theory;         ///< that they are of: what was asked, or second order instead
     WaveTerms terms;           ///< wave number, coefficients; phase terms and weights are not set
 } WaveTrain;
 
@@ -138,5 +139,8 @@ double waves_wall_reach(const Scene *scene);
 /// Warnings a user should read: beyond breaking (Miche), too coarse (H/dp < 5), basin too small.
 /// Writes at most `size` characters, lines joined by "; ". @return number of warnings
 int waves_warnings(const Scene *scene, char *text, int size);
+
+/// One line for `explain`: what was asked, and the wave that follows from it. The scene has waves.
+void waves_tell(const Scene *scene, char *text, int size);
 
 #endif

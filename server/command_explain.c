@@ -93,16 +93,14 @@ static void print_line(const LineScene *line, const LinePlan *plan)
            s->fairlead_tension, s->anchor_tension, s->horizontal_force);
 }
 
-static const char *const WAVE_KINDS[] = {"none", "regular", "irregular (significant height)",
-                                         "focused (twice the crest)"};
-
 static void print_text(const Scene *scene, const Plan *plan, const char *prediction)
 {
-    const WaveTarget *wave = &scene->waves.initial;
+    char waves[256];
     printf("Case %s: %s (%016llx)\n", scene->name, scene->title, (unsigned long long)scene->hash);
-    if (scene->waves.kind != WAVES_NONE)
-        printf("Waves                 %s, height %.4g m, period %.4g s, heading %.4g deg\n",
-               WAVE_KINDS[scene->waves.kind], wave->height, wave->period, degrees(wave->heading));
+    if (scene->waves.kind != WAVES_NONE) {
+        waves_tell(scene, waves, sizeof waves);
+        printf("Waves                 %s\n", waves);
+    }
     print_numerics(scene, plan);
     print_effects(plan, true);
     print_effects(plan, false);
@@ -197,6 +195,11 @@ static void print_json(const Scene *scene, const Plan *plan)
     json_number(&json, "time_step_s", plan->time_step);
     json_string(&json, "time_step_limit", plan->time_step_limit);
     json_number(&json, "zone_width_m", plan->zone_width);
+    if (scene->waves.kind != WAVES_NONE) {
+        char waves[256];
+        waves_tell(scene, waves, sizeof waves);
+        json_string(&json, "waves", waves);
+    }
     json_number(&json, "seconds_per_simulated_second", plan->predicted_slowness);
     effects_write(&json, plan);
     write_bodies(&json, scene, plan);

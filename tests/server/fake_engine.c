@@ -242,6 +242,11 @@ bool state_command(const Scene *scene, State *state, const Command *command, Err
     return true;
 }
 
+void waves_tell(const Scene *scene, char *text, int size)
+{
+    snprintf(text, (size_t)size, "%g m", scene->waves.initial.height);
+}
+
 bool wave_quality_asked(const Scene *scene) { return scene->quality_gauge_count > 0; }
 
 WaveTarget waves_now(const WaveState *waves, double time) { return waves->asked; }
