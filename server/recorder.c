@@ -4,12 +4,16 @@
 #include <string.h>
 #include <sys/stat.h>
 
+static const double CLOCK_SLACK = 1e-6; ///< of the interval
+
 bool sample_clock_due(SampleClock *clock, double time)
 {
-    if (time < (double)clock->next * clock->interval) return false;
+    // steps that divide the interval add up to it but for rounding
+    double slack = CLOCK_SLACK * clock->interval;
+    if (time + slack < (double)clock->next * clock->interval) return false;
     // a step may be longer than the interval: one sample then stands for all that fell due
-    clock->next = (int64_t)floor(time / clock->interval) + 1;
-    while ((double)clock->next * clock->interval <= time)
+    clock->next = (int64_t)floor((time + slack) / clock->interval) + 1;
+    while ((double)clock->next * clock->interval <= time + slack)
         clock->next++;
     return true;
 }

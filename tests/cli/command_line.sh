@@ -112,6 +112,11 @@ if command -v node >/dev/null; then
         if (files.length !== 4 || Math.abs(files[3].time - 0.3) > 1e-6) process.exit(1)' \
         <"$work/lines/lines/lines.vtk.series"
 fi
+fact a_snap_is_told 0 '' '' "$program" run tests/good_cases/driven_lines.json --until 1.4 --out "$work/snap" \
+    --quiet
+holds a_snap_is_journalled grep -q '"event":"snap","line":"line_1","tension_n":93' "$work/snap/journal.jsonl"
+holds a_snap_is_summed_up grep -q '"snaps":1' "$work/snap/summary.json"
+holds samples_fall_on_the_times_asked_for grep -q '^1.4,' "$work/snap/series.csv"
 holds no_line_files_unasked test ! -e "$work/run/lines.csv"
 
 fact explain_tells_why 0 'Effects that are left out' '' "$program" explain cases/still_water.json
