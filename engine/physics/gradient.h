@@ -8,8 +8,9 @@
 ///
 ///     dv_i/dt = - sum m_k (P_i B_i + P_k B_k) grad_i W_ik + …,
 ///
-/// which keeps momentum. Where too few neighbours are left to tell a gradient, B fades to the unit
-/// matrix: between 0.32 and 0.55 of M's mean eigenvalue, det(M)^(1/d); a flat surface has 0.5.
+/// which keeps momentum. B fades to the unit matrix between 0.975 and 0.84 of M's mean eigenvalue,
+/// det(M)^(1/d): disorder inside is corrected, the surface (a flat one has 0.5) is left alone. There
+/// the plain sum is right where pressure vanishes, and correcting it fed standing waves.
 /// Sources: Bonet & Lok (1999), doi:10.1016/S0045-7825(99)00051-1; the symmetric form in waves,
 /// Zago et al. (2021), doi:10.1007/s40722-021-00200-0. (measured) the limits: docs/physics.md.
 #ifndef FAIRLEAD_PHYSICS_GRADIENT_H
@@ -31,7 +32,7 @@ typedef struct GradientLimits {
 
 FN GradientLimits gradient_limits(int dimensions)
 {
-    double low = pow(0.32, dimensions), high = pow(0.55, dimensions);
+    double low = pow(0.84, dimensions), high = pow(0.975, dimensions);
     GradientLimits limits;
     limits.floor = (float)low;
     limits.per_width = (float)(1 / (high - low));
