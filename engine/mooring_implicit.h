@@ -31,6 +31,7 @@ typedef struct Implicit {
     Segment *segments;
     Contact *contacts;
     double *tension; ///< solved for, of the last iteration [segments][N]
+    Vec3 *guess;     ///< where the predictor put the nodes [node_count]
     Chain chain;
 } Implicit;
 

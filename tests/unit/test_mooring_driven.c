@@ -10,6 +10,7 @@ typedef struct Compared {
     double peak, peak_time; ///< tension of the last segment
     double largest;         ///< of any segment
     double smallest;        ///< of any segment
+    double steps_per_call;
     bool good;
 } Compared;
 
@@ -74,6 +75,7 @@ static Compared compare(const char *name, LineStepper stepper, double step, doub
     }
     if (!result.good) printf("  %s\n", error.message);
     result.largest = line.largest_tension;
+    result.steps_per_call = (double)line.substeps * step / until;
     result.mean = ours.sum / ours.count;
     result.reference_mean = theirs.sum / theirs.count;
     result.harmonic = harmonic_amplitude(&ours);
@@ -147,11 +149,13 @@ TEST(rope_snaps_to_3573_newtons_at_4_98_seconds)
 }
 
 /// The reference lets the bed pull a node back as it lifts off and slack segments push; ours must
-/// not. With both let in, ours has 83.5 and 70.3 N; without, 82.2 and 67.0 N at every step.
+/// not. With both let in, ours has 83.5 and 70.3 N (0.5 and 1.4 % off); without, 82.2 and 67.0 N at
+/// every step of either stepper (2.1 and 3.4 %). Sampled every 10 ms as the reference is, ours is
+/// anything from 66.5 to 68.8 N, for the spikes last a millisecond.
 TEST(single_point_chain_on_an_ellipse_has_the_reference_s_mean_and_first_harmonic)
 {
-    check_mean_and_harmonic("d1", LINE_STEPPER_RK2, 0.001, 83.918, 69.325, 0.03, 0.05);
-    check_mean_and_harmonic("d1", LINE_STEPPER_BDF2, 0.001, 83.918, 69.325, 0.03, 0.05);
+    check_mean_and_harmonic("d1", LINE_STEPPER_RK2, 0.001, 83.918, 69.325, 0.03, 0.036);
+    check_mean_and_harmonic("d1", LINE_STEPPER_BDF2, 0.001, 83.918, 69.325, 0.03, 0.036);
 }
 
 /// 0.3 s only: an explicit step on steel wire is 3 microseconds.
@@ -175,13 +179,33 @@ TEST(implicit_steel_line_snaps_to_935_newtons_at_the_fluid_s_step)
     }
 }
 
+/// Error control: nothing is split where a line is merely shaken, and a quarter of the calls where
+/// it snaps every second; then the peak is right at four times the step it needs without.
+TEST(implicit_step_is_split_only_for_snaps)
+{
+    const struct {
+        const char *name;
+        double most; ///< steps per call
+    } cases[] = {{"b4", 1}, {"b7", 1}, {"b1", 1}, {"b2", 1}, {"c1", 1.02}, {"c3", 1.4}};
+    for (int i = 0; i < 6; i++) {
+        const DrivenCase *c = driven_case(cases[i].name);
+        Compared r = compare(cases[i].name, LINE_STEPPER_BDF2, 1e-3, c->period, c->until);
+        CHECK(r.good);
+        CHECK(r.steps_per_call <= cases[i].most);
+        if (i < 5) continue;
+        CHECK(r.steps_per_call > 1.1);
+        CHECK_NEAR(r.peak, 935.3, 0.001 * 935.3);
+    }
+}
+
 /// The wire's first nodes touch the bed each period, and in the reference are held back by it;
-/// means and harmonics over full samples (the reference's are thinned at 5 ms, spikes in it).
+/// c1's mean and harmonic are of the full series.
 TEST(implicit_steel_line_has_the_reference_s_mean_and_first_harmonic)
 {
     const double steps[] = {1e-3, 2.5e-4};
     for (int i = 0; i < 2; i++) {
         check_mean_and_harmonic("c1", LINE_STEPPER_BDF2, steps[i], 0.168412, 0.0310474, 0.01, 0.03);
-        check_mean_and_harmonic("c2", LINE_STEPPER_BDF2, steps[i], 0.169889, 0.0215131, 0.01, 0.04);
+        check_mean_and_harmonic("c2", LINE_STEPPER_BDF2, steps[i], 0.169889, 0.0215131, 0.01,
+                                0.032);
     }
 }
