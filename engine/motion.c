@@ -113,8 +113,8 @@ static bool fill_table(const Reader *r, Arena *arena, MotionTable *table, Error 
     TRY(table->time = arena_take(arena, n, sizeof *table->time, "motion", error));
     TRY(table->value = arena_take(arena, n, sizeof *table->value, "motion", error));
     TRY(table->bend = arena_take(arena, n, sizeof *table->bend, "motion", error));
-    double *work = malloc(n * sizeof *work);
-    if (!work) return error_set(error, ERROR_SYSTEM, "no memory left for %.300s", r->path);
+    double *work = arena_take(arena, n, sizeof *work, "motion", error);
+    TRY(work);
     table->shortest = INFINITY;
     for (int i = 0; i < r->count; i++) {
         table->time[i] = r->rows[i][0];
@@ -123,7 +123,6 @@ static bool fill_table(const Reader *r, Arena *arena, MotionTable *table, Error 
     }
     for (int column = 0; column < 6; column++)
         bend(table, column, work);
-    free(work);
     for (int i = 0; i + 1 < r->count; i++) {
         double value[6] = {0}, rate[6] = {0};
         motion_add(table, table->time[i], value, rate);
