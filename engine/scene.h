@@ -375,7 +375,8 @@ LineSection line_section_default(void);
 PointScene point_scene_default(void);
 
 /// Fill in what the sections leave to the line and set the line's own `length` and `segments` to
-/// their sums; does nothing to a line without sections. Every line must have passed through here.
+/// their sums (and what the line itself leaves out to that of the section at the fairlead); does
+/// nothing to a line without sections. Every line must have passed through here.
 void line_scene_complete(LineScene *line);
 
 /// Read, override and check a case.

@@ -148,4 +148,9 @@ void line_scene_complete(LineScene *line)
     }
     line->length = length;
     line->segments = count;
+    // who asks the line as a whole gets what is at its fairlead
+    const LineSection *last = &line->sections[line->section_count - 1];
+    inherit(&line->axial_stiffness, last->axial_stiffness);
+    inherit(&line->mass_per_length, last->mass_per_length);
+    inherit(&line->diameter, last->diameter);
 }

@@ -118,3 +118,26 @@ TEST(the_journal_names_the_line_and_its_peak)
     line_event_describe(&scene, &event, text, sizeof text);
     CHECK(!strcmp(text, "bow line snaps: 345.2 N"));
 }
+
+TEST(a_line_whose_sections_alone_say_what_it_is_made_of_is_watched_too)
+{
+    Scene pendant;
+    Error error = {0};
+    Plan plan;
+    State *state = NULL;
+    EngineOptions options = {.threads = 1, .backend = "auto"};
+    static const char *const lines_only[] = {"domain.kind=lines", "fluid.spacing_m=null",
+                                             "waves.kind=none", "bodies.ship.freedoms=fixed"};
+    bool good =
+        scene_load(SOURCE_DIR "/cases/moored_ship_pendant.json", lines_only, 4, &pendant, &error) &&
+        plan_build(&pendant, &options, &plan, &error) &&
+        state_create(&pendant, &plan, &state, &error);
+    if (!good) printf("  %s\n", error.message);
+    CHECK(good);
+    if (!good) return;
+    CHECK(pendant.lines[0].diameter == 0.002213);
+    CHECK_NEAR(state->watches[0].rest, state->lines[0].tension[24], 1e-9);
+    CHECK(state->watches[0].rest > 3);
+    state_destroy(state);
+    plan_destroy(&plan);
+}
