@@ -4,7 +4,6 @@
 #include "effects.h"
 #include "json.h"
 
-static double degrees(double radians) { return radians * (180.0 / PI); }
 
 static int particle_total(const Plan *plan)
 {

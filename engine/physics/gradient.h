@@ -11,8 +11,8 @@
 /// which keeps momentum. B fades to the unit matrix between 0.975 and 0.84 of M's mean eigenvalue,
 /// det(M)^(1/d): disorder inside is corrected, the surface (a flat one has 0.5) is left alone. There
 /// the plain sum is right where pressure vanishes, and correcting it fed standing waves.
-/// Sources: Bonet & Lok (1999), doi:10.1016/S0045-7825(99)00051-1; the symmetric form in waves,
-/// Zago et al. (2021), doi:10.1007/s40722-021-00200-0. (measured) the limits: docs/physics.md.
+/// Sources: Bonet & Lok (1999), doi:10.1016/S0045-7825(99)00051-1; in water waves, Zago et al.
+/// (2021), Coastal Engineering 170. (measured) The limits: docs/physics.md.
 #ifndef FAIRLEAD_PHYSICS_GRADIENT_H
 #define FAIRLEAD_PHYSICS_GRADIENT_H
 
