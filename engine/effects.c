@@ -95,6 +95,14 @@ static void choose_waves(const Scene *scene, Plan *plan, const Fill *fill)
         plan->zone_width);
 }
 
+static void choose_current(const Scene *scene, Plan *plan)
+{
+    double speed = scene->waves.current.speed;
+    set(plan, EFFECT_CURRENT, speed > 0, 0,
+        speed > 0 ? "waves.current: %.3g m/s" : "no waves.current", speed);
+    plan->effects[EFFECT_CURRENT].cost = COST_ELSEWHERE;
+}
+
 /// "free: surge heave; prescribed: pitch; fixed: sway roll yaw", over all bodies. A freedom that
 /// differs between bodies stands under each word. @return whether any is not fixed
 static bool list_freedoms(const Scene *scene, char *text, size_t size)
@@ -173,6 +181,7 @@ void effects_choose(const Scene *scene, Plan *plan, const Fill *fill)
 {
     choose_pairs(scene, plan, fill);
     choose_waves(scene, plan, fill);
+    choose_current(scene, plan);
     choose_bodies_and_lines(scene, plan, fill);
     choose_probes(scene, plan, fill);
     plan->bytes = RUN_BYTES + (size_t)FLUID_BYTES * (size_t)fill->fluid_count;

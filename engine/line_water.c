@@ -41,9 +41,10 @@ static void water_at_nodes(const void *context, LineWater kind, double time, int
     const WaveState *waves = nodes->state->waves;
     double level = scene->fluid.level;
     bool still = scene->waves.kind == WAVES_NONE;
+    Vec3 current = waves_current(scene);
     if (!still) incident_velocity(scene, waves, time, count, position, velocity);
     for (int i = 0; i < count; i++) {
-        if (still) velocity[i] = vec3(0, 0, 0);
+        velocity[i] = still ? current : vec3_add(velocity[i], current);
         acceleration[i] = still ? vec3(0, 0, 0) : waves_acceleration(waves, position[i], time);
         elevation[i] =
             level + (still ? 0 : waves_elevation(waves, position[i].x, position[i].y, time));
@@ -63,7 +64,8 @@ WaterField line_water(const Scene *scene, State *state, NodeWater *nodes)
 {
     nodes->scene = scene;
     nodes->state = state;
-    bool moves = scene->waves.kind != WAVES_NONE || line_water_is_simulated(scene);
+    bool moves = scene->waves.kind != WAVES_NONE || scene->waves.current.speed > 0 ||
+                 line_water_is_simulated(scene);
     WaterField water = {moves ? water_at_nodes : NULL,
                         nodes,
                         scene->fluid.level,

@@ -119,12 +119,19 @@ typedef struct WaveGain {
     char gauge_name[SCENE_NAME_SIZE]; ///< as the file says it
 } WaveGain;
 
+/// A steady uniform current; only where no particles are (docs/physics.md).
+typedef struct Current {
+    double speed;   ///< [m/s]
+    double heading; ///< where it flows to [rad]
+} Current;
+
 typedef struct Waves {
     WaveKind kind;
     WaveTheory theory;
     Spectrum spectrum; ///< irregular, focused
     Focus focus;       ///< focused
     WaveGain gain;
+    Current current;
     int piston_order; ///< flume: 1, or 2 with the piston's own second harmonic
     WaveTarget initial;
     WaveStart start;

@@ -167,6 +167,20 @@ static bool check_wave_heights(const JsonReader *reader, const Scene *scene)
     return true;
 }
 
+static bool check_current(const JsonReader *reader, const Scene *scene)
+{
+    const Waves *waves = &scene->waves;
+    if (!(waves->current.speed > 0)) return true;
+    if (scene->domain.kind != DOMAIN_LINES)
+        return table_refuse_number(reader, "waves.current.speed_ms", waves->current.speed,
+                                   "must be 0 where water particles are (walls and ring let "
+                                   "nothing through); domain.kind \"lines\" takes it");
+    if (waves->kind == WAVES_IRREGULAR || waves->kind == WAVES_FOCUSED)
+        return table_refuse_number(reader, "waves.current.speed_ms", waves->current.speed,
+                                   "must be 0 with waves that are not regular");
+    return true;
+}
+
 static bool check_spectrum(const JsonReader *reader, const Scene *scene)
 {
     const Waves *waves = &scene->waves;
@@ -269,6 +283,7 @@ bool case_check(const JsonReader *reader, const Scene *scene)
     TRY(check_blocks(reader, scene));
     TRY(check_standing_wave(reader, scene));
     TRY(check_sound_speed(reader, scene));
+    TRY(check_current(reader, scene));
     TRY(check_waves(reader, scene));
     TRY(case_check_bodies(reader, scene));
     TRY(case_check_lines(reader, scene));

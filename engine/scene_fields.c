@@ -85,6 +85,12 @@ static const JsonField GAIN_FIELDS[] = {
 };
 static const JsonTable GAIN_TABLE = {GAIN_FIELDS, COUNT(GAIN_FIELDS), NULL};
 
+static const JsonField CURRENT_FIELDS[] = {
+    {"speed_ms", FIELD_NUMBER, true, IN_CASE(scene.waves.current.speed), .max = 10, .unit = "m/s"},
+    {"heading_deg", FIELD_NUMBER, IN_CASE(scene.waves.current.heading), DEGREES(-180, 360)},
+};
+static const JsonTable CURRENT_TABLE = {CURRENT_FIELDS, COUNT(CURRENT_FIELDS), NULL};
+
 static const JsonField WAVE_FIELDS[] = {
     {"kind", FIELD_CHOICE, true, IN_CASE(scene.waves.kind),
      .choices = {"none", "regular", "irregular", "focused"}},
@@ -99,6 +105,7 @@ static const JsonField WAVE_FIELDS[] = {
     {"zone_width_m", FIELD_NUMBER, IN_CASE(scene.waves.zone_width), .max = 1000, .unit = "m"},
     {"spectrum", FIELD_OBJECT, .table = &SPECTRUM_TABLE},
     {"focus", FIELD_OBJECT, .table = &FOCUS_TABLE},
+    {"current", FIELD_OBJECT, .table = &CURRENT_TABLE},
     {"gain", FIELD_OBJECT, .table = &GAIN_TABLE},
     {"piston_order", FIELD_INTEGER, IN_CASE(scene.waves.piston_order), .min = 1, .max = 2},
     {"limits", FIELD_OBJECT, .table = &LIMIT_TABLE},

@@ -118,8 +118,8 @@ static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State 
     zone.side_min[1] = basin && d->dimensions == 3 ? d->min.y : -1e30;
     zone.side_max[1] = basin && d->dimensions == 3 ? d->max.y : 1e30;
     zone.target = basin ? zone_velocity : NULL;
-    // a sea's target costs as much as the particle itself; ten steps are still short beside tau
-    double steps = zone.time_scale / plan->time_step / 10;
+    // a sea's target costs as much as the particle itself: a fifth of tau is short enough
+    double steps = zone.time_scale / plan->time_step / 5;
     zone.every = state->waves->sea && steps > 1 ? (int)mind(steps, SEA_EVERY) : 1;
     return zone;
 }

@@ -46,15 +46,22 @@ static WaveTerms terms_create(const Scene *scene, const WaveTarget *target, Wave
                          .depth = depth,
                          .gravity = scene->fluid.gravity};
     SteadyWave wave;
+    if (scene->domain.kind == DOMAIN_LINES) { // an open sea: nothing flows back
+        ask.eulerian = true;
+        ask.current = waves_current_along(scene, target->heading);
+    }
     if (target->height > 0 && steady_wave_solve(&ask, &wave)) {
         WaveTerms terms = wave_orbits_terms(&wave, level, &misfit);
         *theory = wave.theory;
+        if (ask.eulerian) terms.mean_velocity = 0; // the current itself is added by who asks
         if (misfit < MISFIT * target->height) return terms;
     }
     *theory = WAVE_THEORY_STOKES2;
     double omega = 2 * PI / target->period;
     double number = wave_number_airy(omega, depth, scene->fluid.gravity);
-    return wave_terms(target->height / 2, number, omega, depth, level);
+    WaveTerms terms = wave_terms(target->height / 2, number, omega, depth, level);
+    if (ask.eulerian) terms.mean_velocity = 0;
+    return terms;
 }
 
 static WaveTrain train_create(const Scene *scene, const WaveTarget *asked, double gain)

@@ -128,6 +128,10 @@ void waves_ring_places(const WaveState *waves, double time, int count, const Vec
 void waves_zone_batch(const WaveState *waves, double time, int count, const float *x,
                       const float *y, const float *z, float *u, float *v, float *w);
 
+/// The scene's current [m/s], and its part along a heading.
+Vec3 waves_current(const Scene *scene);
+double waves_current_along(const Scene *scene, double heading);
+
 /// Width of the basin's relaxation zone or of the flume's beach [m]: the case's, or 0.75 of the
 /// longest wave that may be set live (the whole of it for a beach). 0 without waves and in a tank.
 double waves_zone_width(const Scene *scene);

@@ -18,6 +18,17 @@ static double wave_length(const Scene *scene, double period)
     return 2 * PI / wave_number_airy(2 * PI / period, basin_depth(scene), scene->fluid.gravity);
 }
 
+Vec3 waves_current(const Scene *scene)
+{
+    const Current *c = &scene->waves.current;
+    return vec3(c->speed * cos(c->heading), c->speed * sin(c->heading), 0);
+}
+
+double waves_current_along(const Scene *scene, double heading)
+{
+    return scene->waves.current.speed * cos(heading - scene->waves.current.heading);
+}
+
 double waves_zone_width(const Scene *scene)
 {
     if (scene->waves.kind == WAVES_NONE || scene->domain.kind == DOMAIN_TANK) return 0;
