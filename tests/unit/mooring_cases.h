@@ -4,9 +4,12 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mooring.h"
+#ifndef MOORING_CASES_ALONE // for programs that are no tests
 #include "test.h"
+#endif
 
 /// x(t) = x0 + ramp(t) A sin(2 pi t/T + phase), ramp = (1 - cos(pi t/T))/2 until T, then 1.
 typedef struct DrivenCase {
