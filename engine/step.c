@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "backend/built.h"
 #include "contact.h"
 #include "coupling.h"
 #include "engine.h"
@@ -13,6 +14,11 @@
 #include "line_water.h"
 #include "piston.h"
 #include "probes.h"
+
+static bool called_for(const Plan *plan, EffectId effect)
+{
+    return EFFECTS_BUILT && plan->effects[effect].active;
+}
 
 double step_clock(void)
 {
@@ -56,17 +62,17 @@ static void advance_bodies(const Scene *scene, const Plan *plan, State *state, d
         state->bodies[b].fluid_force = state->loads[b].force;
         state->bodies[b].fluid_moment = state->loads[b].moment;
     }
-    if (plan->effects[EFFECT_SLAMMING].active) {
+    if (called_for(plan, EFFECT_SLAMMING)) {
         double lap = step_clock();
         probe_slamming(scene, plan, state, dt);
         state->host_seconds[EFFECT_SLAMMING] += step_clock() - lap;
     }
-    if (plan->effects[EFFECT_CONTACTS].active) {
+    if (called_for(plan, EFFECT_CONTACTS)) {
         double lap = step_clock();
         contact_loads(scene, plan, state->bodies);
         state->host_seconds[EFFECT_CONTACTS] += step_clock() - lap;
     }
-    if (!plan->effects[EFFECT_BODY_MOTION].active) return;
+    if (!called_for(plan, EFFECT_BODY_MOTION)) return;
     double lap = step_clock();
     for (int b = 0; b < scene->body_count; b++) {
         Body *body = &state->bodies[b], before = *body;
@@ -109,7 +115,7 @@ static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State 
     const Domain *d = &scene->domain;
     RelaxationZone zone;
     memset(&zone, 0, sizeof zone);
-    bool basin = plan->effects[EFFECT_ZONE].active, beach = plan->effects[EFFECT_BEACH].active;
+    bool basin = called_for(plan, EFFECT_ZONE), beach = called_for(plan, EFFECT_BEACH);
     if (!basin && !beach) return zone;
     zone.width = plan->zone_width;
     zone.time_scale = 0.1 * state->waves->asked.period;
@@ -137,15 +143,15 @@ Advance step_orders(const Scene *scene, const Plan *plan, State *state, double d
     advance.dt = dt;
     advance.poses = state->poses;
     advance.waves = state->waves;
-    advance.ring = plan->effects[EFFECT_RING].active ? move_ring : NULL;
-    advance.piston = plan->effects[EFFECT_PISTON].active ? piston_move : NULL;
+    advance.ring = called_for(plan, EFFECT_RING) ? move_ring : NULL;
+    advance.piston = called_for(plan, EFFECT_PISTON) ? piston_move : NULL;
     advance.zone = zone_of(scene, plan, state);
     return advance;
 }
 
 static EffectId wave_maker(const Plan *plan)
 {
-    return plan->effects[EFFECT_PISTON].active ? EFFECT_PISTON : EFFECT_RING;
+    return called_for(plan, EFFECT_PISTON) ? EFFECT_PISTON : EFFECT_RING;
 }
 
 static bool step_once(const Scene *scene, const Plan *plan, State *state, double dt,
@@ -156,9 +162,9 @@ static bool step_once(const Scene *scene, const Plan *plan, State *state, double
         state->centres[b] = state->bodies[b].position;
     TRY(state->backend->forces(state->particles, state->centres, state->loads, error));
 
-    if (plan->effects[EFFECT_LINES].active) coupling_note_ends(scene, state->bodies, 0, &paths);
-    if (plan->effects[EFFECT_BODIES].active) advance_bodies(scene, plan, state, dt);
-    if (plan->effects[EFFECT_LINES].active) {
+    if (called_for(plan, EFFECT_LINES)) coupling_note_ends(scene, state->bodies, 0, &paths);
+    if (called_for(plan, EFFECT_BODIES)) advance_bodies(scene, plan, state, dt);
+    if (called_for(plan, EFFECT_LINES)) {
         double lap = step_clock();
         coupling_note_ends(scene, state->bodies, 1, &paths);
         TRY(advance_lines(scene, state, dt, &paths, error));
@@ -170,7 +176,7 @@ static bool step_once(const Scene *scene, const Plan *plan, State *state, double
 
     state->time += dt;
     state->step++;
-    if (scene->waves.kind != WAVES_NONE) {
+    if (EFFECTS_BUILT && scene->waves.kind != WAVES_NONE) {
         double lap = step_clock();
         waves_update(state->waves, scene, state->time);
         state->host_seconds[wave_maker(plan)] += step_clock() - lap;
@@ -193,7 +199,7 @@ static void share_clocks(const Plan *plan, State *state)
     e[EFFECT_MOVING_BOUNDARIES] += c[CLOCK_EXTRAPOLATE_MOVING] + c[CLOCK_DUMMIES];
     e[EFFECT_RING] += c[CLOCK_RING];
     e[EFFECT_PISTON] += c[CLOCK_PISTON];
-    e[plan->effects[EFFECT_BEACH].active ? EFFECT_BEACH : EFFECT_ZONE] += c[CLOCK_ZONE];
+    e[called_for(plan, EFFECT_BEACH) ? EFFECT_BEACH : EFFECT_ZONE] += c[CLOCK_ZONE];
     e[EFFECT_BODIES] += c[CLOCK_LOADS];
     e[EFFECT_ENERGY] += c[CLOCK_WORKS];
     state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] +

@@ -71,6 +71,9 @@ static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Er
         moving += start->dummy_owner[i] != OWNER_FIXED;
     int fixed = start->dummy_count - moving;
     TRY(set_create(&b->fluid, &b->grid, start->fluid_count, FLUID_FIELDS, arena, error));
+    if (b->setup.pair_mask & PAIR_DIFFUSION)
+        TRY(b->fluid.dynamic = arena_take(arena, (size_t)b->fluid.slot_capacity, sizeof(float),
+                                          "particles.dynamic", error));
     if (fixed) TRY(set_create(&b->fixed, &b->grid, fixed, 0, arena, error));
     if (moving) TRY(take_moving(b, moving, arena, error));
     int slots = b->fluid.slot_capacity;
@@ -246,7 +249,7 @@ bool cpu_neighbours(Backend *b, Error *error)
     if (!b->sorted || !rows_lists_hold(&b->rows, &b->grid, b->last_step, b->skin)) {
         set_sort(&b->fluid, &b->grid, &b->scratch);
         b->table->update_pressure(b);
-        if (b->moving.count) set_sort(&b->moving, &b->grid, &b->scratch);
+        if (EFFECTS_BUILT && b->moving.count) set_sort(&b->moving, &b->grid, &b->scratch);
         b->boxes_fresh = false;
         cpu_refresh_boxes(b);
         b->sorted = rebuild_lists(b);
@@ -369,26 +372,26 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
         extrapolate_walls(b, 0);
         LAP(CLOCK_EXTRAPOLATE);
     }
-    if (b->moving.count) {
+    if (EFFECTS_BUILT && b->moving.count) {
         extrapolate_walls(b, 1);
         LAP(CLOCK_EXTRAPOLATE_MOVING);
     }
-    if (b->setup.pair_mask & PAIR_GRADIENT) {
+    if (EFFECTS_BUILT && (b->setup.pair_mask & PAIR_GRADIENT)) {
         correct_gradients(b);
         LAP(CLOCK_GRADIENT);
     }
-    if (b->setup.works) {
+    if (EFFECTS_BUILT && b->setup.works) {
         works_before_momentum(b);
         LAP(CLOCK_WORKS);
     }
     cpu_sweep_fluid(b, cpu_acceleration(b, b->setup.pair_mask));
     LAP(CLOCK_MOMENTUM);
-    if (b->setup.body_count) {
+    if (EFFECTS_BUILT && b->setup.body_count) {
         memset(loads, 0, (size_t)b->setup.body_count * sizeof *loads);
         sum_loads(b, about, loads);
         LAP(CLOCK_LOADS);
     }
-    if (b->setup.works) {
+    if (EFFECTS_BUILT && b->setup.works) {
         works_after_forces(b);
         LAP(CLOCK_WORKS);
     }
@@ -434,7 +437,8 @@ static void cpu_save(const Backend *b, void *to)
     size_t moving = set_transfer(&own->moving, (char *)to + fluid, NULL);
     char *rest = (char *)to + fluid + moving;
     memcpy(rest, &b->first_step, sizeof(bool));
-    if (b->setup.works) memcpy(rest + sizeof(bool), &b->works.sums, sizeof(FluidWorks));
+    if (EFFECTS_BUILT && b->setup.works)
+        memcpy(rest + sizeof(bool), &b->works.sums, sizeof(FluidWorks));
 }
 
 static void cpu_restore(Backend *b, const void *from)
@@ -443,7 +447,8 @@ static void cpu_restore(Backend *b, const void *from)
     size_t moving = set_transfer(&b->moving, NULL, (const char *)from + fluid);
     const char *rest = (const char *)from + fluid + moving;
     memcpy(&b->first_step, rest, sizeof(bool));
-    if (b->setup.works) memcpy(&b->works.sums, rest + sizeof(bool), sizeof(FluidWorks));
+    if (EFFECTS_BUILT && b->setup.works)
+        memcpy(&b->works.sums, rest + sizeof(bool), sizeof(FluidWorks));
     b->sorted = b->boxes_fresh = false;
     b->table->update_pressure(b);
 }
@@ -485,7 +490,7 @@ static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density
         for (int a = 0; a < 3 && b->fluid.id[s] >= 0; a++)
             acceleration[b->fluid.id[s]][a] =
                 c->acceleration_factor * b->fluid.rate[a][s] + b->sweep.gravity[a];
-    b->table->update_dynamic(b);
+    if (b->setup.pair_mask & PAIR_DIFFUSION) b->table->update_dynamic(b);
     zero_rates(b, 1);
     cpu_sweep_fluid(b, b->table->density[(b->setup.pair_mask & PAIR_DIFFUSION) != 0]);
     for (int s = 0; s < slots; s++)

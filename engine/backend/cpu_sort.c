@@ -73,8 +73,7 @@ bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, 
         TAKE(set->field[f], n, float, "field");
     TAKE(set->id, n, int32_t, "id");
     TAKE(set->pressure, n, float, "pressure");
-    set->dynamic = set->pressure; // dummies have no D; nobody uses what is read here
-    if (field_count == FLUID_FIELDS) TAKE(set->dynamic, n, float, "dynamic");
+    set->dynamic = set->pressure; // where there is no D, nobody uses what is read here
     TAKE(set->row_begin, (size_t)grid->row_count + 1, int, "rows");
 #undef TAKE
     // before the first sort the particles lie in slots 0 … count - 1

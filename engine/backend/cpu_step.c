@@ -366,8 +366,9 @@ static double kick_row(Backend *b, int row, const Advance *advance)
     ParticleSet *f = &b->fluid;
     float dt = (float)advance->dt;
     double zone = 0;
+    const bool diffuse = EFFECTS_BUILT && (b->setup.pair_mask & PAIR_DIFFUSION) != 0;
     const int every = advance->zone.every;
-    bool relaxed = advance->zone.width > 0 && (row + advance->step) % every == 0;
+    bool relaxed = EFFECTS_BUILT && advance->zone.width > 0 && (row + advance->step) % every == 0;
     int row_end = f->row_begin[row + 1] * CLUSTER, end;
     for (int begin = f->row_begin[row] * CLUSTER; begin < row_end; begin = end) {
         end = begin + BLOCK < row_end ? begin + BLOCK : row_end;
@@ -378,7 +379,7 @@ static double kick_row(Backend *b, int row, const Advance *advance)
             zone += cpu_clock() - start;
         }
         block_drift(b, f, begin, end, 0.5f * dt);
-        block_dynamic(b, f, begin, end);
+        if (diffuse) block_dynamic(b, f, begin, end);
         memset(f->rate[0] + begin, 0, (size_t)(end - begin) * sizeof(float));
     }
     return zone;
@@ -403,16 +404,16 @@ static void kick_and_drift(Backend *b, const Advance *advance)
 void AT_LEVEL(step_advance)(Backend *b, const Advance *advance, ParticleSums *sums)
 {
     b->last_step = advance->dt;
-    if (b->moving.count) move_dummies_halfway(b, advance);
+    if (EFFECTS_BUILT && b->moving.count) move_dummies_halfway(b, advance);
     double start = cpu_clock(), now;
 #define LAP(which) (now = cpu_clock(), b->clock[which] += now - start, start = now)
-    if (b->setup.works) {
+    if (EFFECTS_BUILT && b->setup.works) {
         works_before_kick(b);
         LAP(CLOCK_WORKS);
     }
     kick_and_drift(b, advance);
     start = cpu_clock();
-    if (b->setup.works) {
+    if (EFFECTS_BUILT && b->setup.works) {
         works_after_kick(b, advance);
         LAP(CLOCK_WORKS);
     }
@@ -422,15 +423,15 @@ void AT_LEVEL(step_advance)(Backend *b, const Advance *advance, ParticleSums *su
     LAP(CLOCK_SORT);
     cpu_sweep_fluid(b, b->table->density[(b->setup.pair_mask & PAIR_DIFFUSION) != 0]);
     LAP(CLOCK_DENSITY);
-    if (b->setup.works) {
+    if (EFFECTS_BUILT && b->setup.works) {
         works_after_density(b);
         LAP(CLOCK_WORKS);
     }
     finish_fluid(b, (float)advance->dt, sums);
-    if (b->moving.count) finish_dummies(b);
+    if (EFFECTS_BUILT && b->moving.count) finish_dummies(b);
     rows_move(&b->rows, &b->grid, 0.5 * advance->dt);
     LAP(CLOCK_INTEGRATE);
-    if (b->setup.works) {
+    if (EFFECTS_BUILT && b->setup.works) {
         works_after_step(b, advance->dt);
         LAP(CLOCK_WORKS);
     }

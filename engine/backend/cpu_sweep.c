@@ -74,7 +74,7 @@ FN void acceleration_of_cluster(const Sweep *sweep, int i, bool viscous)
         if (id[l] < 0) continue;
         Lanes sum[3];
         push_of_fluid(sweep, &fluid, i, l, viscous, sum);
-        for (int set = 0; set < 2; set++)
+        for (int set = 0; set < WALL_SETS; set++)
             if (has_walls(sweep, set, i)) push_of_walls(sweep, &fluid, set, i, l, sum);
         for (int a = 0; a < 3; a++)
             fluid.rate[a][i * CLUSTER + l] += lanes_total(sum[a]);
@@ -94,7 +94,7 @@ FN void density_of_cluster(const Sweep *sweep, int i, bool diffusive)
         for (size_t base; visits_next(&visits, &base);)
             visit_density(&self, &fluid, base, c, diffusive, true, &sum);
         visit_density(&self, &fluid, (size_t)i * CLUSTER, c, diffusive, false, &sum);
-        for (int set = 0; set < 2; set++) {
+        for (int set = 0; set < WALL_SETS; set++) {
             if (!has_walls(sweep, set, i)) continue;
             const Arrays walls = arrays_of(sweep->walls[set]);
             visits = visits_of(sweep->fluid_wall[set], i, l);
@@ -176,7 +176,7 @@ static void extrapolate(const Sweep *sweep, int set, int begin, int end)
 {
     if (set == 0)
         extrapolate_set(sweep, 0, begin, end);
-    else
+    else if (EFFECTS_BUILT)
         extrapolate_set(sweep, 1, begin, end);
 }
 
@@ -210,9 +210,10 @@ const SweepTable *AT_LEVEL(sweep_table)(void)
         AT_LEVEL(step_update_dynamic),
         AT_LEVEL(near_clusters),
         AT_LEVEL(near_prune),
-        {acceleration_plain, acceleration_viscous, AT_LEVEL(gradient_plain),
-         AT_LEVEL(gradient_viscous)},
-        {density_plain, density_diffusive},
+        {acceleration_plain, EFFECTS_BUILT ? acceleration_viscous : NULL,
+         EFFECTS_BUILT ? AT_LEVEL(gradient_plain) : NULL,
+         EFFECTS_BUILT ? AT_LEVEL(gradient_viscous) : NULL},
+        {density_plain, EFFECTS_BUILT ? density_diffusive : NULL},
         extrapolate,
         {loads, AT_LEVEL(gradient_loads)},
         AT_LEVEL(gradient_moments),

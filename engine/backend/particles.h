@@ -10,6 +10,7 @@
 
 #include <stdint.h>
 
+#include "backend/built.h"
 #include "base/arena.h"
 #include "physics/pair.h"
 
