@@ -25,22 +25,32 @@ export function readTable(path) {
 /// Reference data, a file of tests/data.
 export const reference = (file) => readTable(join(ROOT, 'tests/data', file));
 
+function readRun(folder) {
+  const table = readTable(join(folder, 'series.csv'));
+  const summary = JSON.parse(readFileSync(join(folder, 'summary.json'), 'utf8'));
+  return { time: table.column('t_s'), names: table.names, column: table.column, summary };
+}
+
 /// A function simulate(NAME, { until, set }) that runs cases/validation/NAME.json and returns its time, its columns and
 /// its summary; cost() tells what all its runs took together.
-export function simulator(program) {
+/// @param made  folder of one run that was made before and is read instead; undefined: none
+export function simulator(program, made) {
   const runs = [];
   const simulate = (name, { until, set = [] }) => {
-    const out = mkdtempSync(join(tmpdir(), 'fairlead-validation-'));
-    const words = ['run', join(ROOT, 'cases/validation', `${name}.json`), '--until', String(until), '--out', out, '--quiet',
-      ...set.flatMap((change) => ['--set', change])];
+    const out = made ?? mkdtempSync(join(tmpdir(), 'fairlead-validation-'));
+    const words = [join(ROOT, 'cases/validation', `${name}.json`), ...set.flatMap((change) => ['--set', change])];
     try {
-      execFileSync(program, words, { stdio: ['ignore', 'inherit', 'inherit'], env: { ...CALM, ...process.env } });
-      const table = readTable(join(out, 'series.csv'));
-      const summary = JSON.parse(readFileSync(join(out, 'summary.json'), 'utf8'));
-      runs.push(summary);
-      return { time: table.column('t_s'), names: table.names, column: table.column, summary };
+      if (!made)
+        execFileSync(program, ['run', ...words, '--until', String(until), '--out', out, '--quiet'],
+          { stdio: ['ignore', 'inherit', 'inherit'], env: { ...CALM, ...process.env } });
+      const run = readRun(out);
+      const hash = made && /\((\w+)\)/.exec(execFileSync(program, ['explain', ...words], { encoding: 'utf8' }).split('\n')[0])[1];
+      if (made && (run.summary.case_hash !== hash || run.summary.simulated_s < until))
+        throw new Error(`${made} holds another run than ${name} of now until ${until} s`);
+      runs.push(run.summary);
+      return run;
     } finally {
-      rmSync(out, { recursive: true, force: true });
+      if (!made) rmSync(out, { recursive: true, force: true });
     }
   };
   simulate.cost = () => ({

@@ -7,7 +7,7 @@ import { ROOT } from './harness.mjs';
 export const IMAGES = join(ROOT, 'docs/images/validation');
 
 const WIDTH = 1000, HEIGHT = 560; // of one panel alone; of a grid, [pixel]
-const SMALL_WIDTH = 560, SMALL_HEIGHT = 330;
+const SMALL_WIDTH = 620, SMALL_HEIGHT = 330;
 const COLOURS = ['#0b5fa5', '#c4501b', '#2b8a3e', '#7b3fa0', '#8a6d00'];
 const GREY = '#444444';
 

@@ -1,6 +1,7 @@
 // Published cases against what others measured or computed: runs cases/validation/*.json, compares, and writes the table
 // and plots of docs/validation.md.
 //   node tests/validation/run.mjs [--program FILE] [--check] [--list] [NAME…]
+//   node tests/validation/run.mjs --made FOLDER NAME       compare what `fairlead run … --out FOLDER` has made
 // Without names every study runs. --check only compares (ctest), nothing is written. Exit status 1: a bar was missed.
 // A study is an entry of `studies` in a file of studies/: { name, title, reference, compare(simulate) }; see harness.mjs.
 import { existsSync, readdirSync } from 'node:fs';
@@ -17,6 +18,7 @@ function options(words) {
   while (words.length) {
     const word = words.shift();
     if (word === '--program') asked.program = words.shift();
+    else if (word === '--made') asked.made = words.shift();
     else if (word === '--check') asked.check = true;
     else if (word === '--list') asked.list = true;
     else asked.names.push(word);
@@ -33,7 +35,7 @@ async function allStudies() {
 /// @return whether every bar was met
 function runStudy(study, asked) {
   console.log(`${study.name}: ${study.title}`);
-  const simulate = simulator(asked.program);
+  const simulate = simulator(asked.program, asked.made);
   const result = study.compare(simulate);
   for (const bar of result.bars) console.log(`  ${bar.good ? 'ok  ' : 'FAIL'} ${bar.what}: ${bar.value} (${bar.limit})`);
   for (const note of result.notes ?? []) console.log(`       ${note}`);

@@ -28,7 +28,7 @@ function compare(simulate) {
   let shift = phase(heave.t, heave.y, heave.from, heave.from + 4 * PERIOD) - phase(run.time, own.heave, FROM, END);
   shift -= PERIOD * Math.ceil((FROM + shift) / PERIOD);
   const moved = run.time.map((t) => t + shift), start = moved.findIndex((t) => t >= 0);
-  const panel = (title, y, m, values) => ({ title, x: 't [s]', y, key: 'bottom left', xrange: [0, 4 * PERIOD], curves: [
+  const panel = (title, y, m, values) => ({ title, x: 't [s]', y, key: 'outside right top', xrange: [0, 4 * PERIOD], curves: [
     { label: 'Ren et al.', style: 'points', x: m.t, y: m.y }, { label: 'simulated', x: moved.slice(start), y: values.slice(start) }] });
   return {
     bars: [
