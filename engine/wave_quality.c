@@ -5,7 +5,7 @@
 
 static const double SAMPLES = 40; ///< of a period
 /// Means run over so many periods; a sea's height over so many peak periods.
-static const int PERIODS = 3, SEA_PERIODS = 30;
+static const int PERIODS = 4, SEA_PERIODS = 30;
 /// Periods after the last change that are left to settle, beside the wave's way to the gauge.
 static const double SETTLE_PERIODS = 2;
 
@@ -61,8 +61,8 @@ static void find_reflection(WaveQuality *quality, const Scene *scene, const Wave
     for (int i = 0; i < QUALITY_GAUGES; i++) {
         const GaugeScene *g = &scene->gauges[scene->quality_gauges[i]];
         along[i] = g->x * w->cos_heading + g->y * w->sin_heading;
-        real[i] = quality->gauge[i].real;
-        imaginary[i] = quality->gauge[i].imaginary;
+        real[i] = quality->gauge[i].real[0];
+        imaginary[i] = quality->gauge[i].imaginary[0];
     }
     quality->reflection = wave_reflection(w->wave_number, QUALITY_GAUGES, along, real, imaginary);
 }
@@ -72,10 +72,27 @@ static void begin_period(WaveQuality *quality, double time)
     quality->begun = time;
     for (int i = 0; i < QUALITY_SLOTS; i++) {
         GaugeWave *g = &quality->gauge[i];
-        g->low = INFINITY;
-        g->high = -INFINITY;
-        g->cosine = g->sine = g->square = 0;
+        memset(g->cosine, 0, sizeof g->cosine);
+        memset(g->sine, 0, sizeof g->sine);
+        g->square = 0;
     }
+}
+
+/// Crest to trough of the mean wave: single crests carry the noise of particles, which would count
+/// as height.
+static double mean_wave_height(const GaugeWave *g)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int n = 0; n < 96; n++) {
+        double eta = 0;
+        for (int j = 0; j < QUALITY_HARMONICS; j++) {
+            double angle = 2 * PI * (j + 1) * n / 96;
+            eta += g->real[j] * cos(angle) + g->imaginary[j] * sin(angle);
+        }
+        low = mind(low, eta);
+        high = maxd(high, eta);
+    }
+    return high - low;
 }
 
 /// Means over the last periods, closed at `time`.
@@ -88,13 +105,14 @@ static void end_period(WaveQuality *quality, const Scene *scene, const WaveState
     for (int i = 0; i < QUALITY_SLOTS; i++) {
         GaugeWave *g = &quality->gauge[i];
         if (slot_gauge(scene, i) < 0) continue;
+        for (int j = 0; j < QUALITY_HARMONICS; j++) {
+            g->real[j] += share * (g->cosine[j] / length - g->real[j]);
+            g->imaginary[j] += share * (g->sine[j] / length - g->imaginary[j]);
+        }
         // a sea's height is 4 standard deviations: its square is what is averaged
-        double height = waves->sea ? 16 * g->square / length : g->high - g->low;
-        double before = waves->sea ? g->height * g->height : g->height;
-        double mean = quality->periods == 1 ? height : before + share * (height - before);
-        g->height = waves->sea ? sqrt(mean) : mean;
-        g->real += share * (g->cosine / length - g->real);
-        g->imaginary += share * (g->sine / length - g->imaginary);
+        double square = 16 * g->square / length;
+        double before = quality->periods == 1 ? square : g->height * g->height;
+        g->height = waves->sea ? sqrt(before + share * (square - before)) : mean_wave_height(g);
     }
     if (!waves->sea && scene->quality_gauge_count == QUALITY_GAUGES)
         find_reflection(quality, scene, waves);
@@ -131,11 +149,12 @@ static double settling(const Scene *scene, const WaveState *waves)
 static void add_sample(GaugeWave *g, double omega, double from, double to, double eta0, double eta1)
 {
     double half = 0.5 * (to - from);
-    g->cosine += 2 * half * (eta0 * cos(omega * from) + eta1 * cos(omega * to));
-    g->sine += 2 * half * (eta0 * sin(omega * from) + eta1 * sin(omega * to));
+    for (int j = 0; j < QUALITY_HARMONICS; j++) {
+        double w = (j + 1) * omega;
+        g->cosine[j] += 2 * half * (eta0 * cos(w * from) + eta1 * cos(w * to));
+        g->sine[j] += 2 * half * (eta0 * sin(w * from) + eta1 * sin(w * to));
+    }
     g->square += half * (eta0 * eta0 + eta1 * eta1);
-    g->low = mind(g->low, eta1);
-    g->high = maxd(g->high, eta1);
 }
 
 /// A sample of every gauge; a period that ends on the way is closed there, by a straight line.

@@ -6,16 +6,21 @@
 #include "scene.h"
 #include "waves.h"
 
-enum { QUALITY_GAUGES = 3, QUALITY_SLOTS = QUALITY_GAUGES + 1 }; ///< the last for the gain
+enum {
+    QUALITY_GAUGES = 3,
+    QUALITY_SLOTS = QUALITY_GAUGES + 1, ///< the last for the gain
+    QUALITY_HARMONICS = 5,
+};
 
 /// One gauge: the period under way, and means over the last ones.
 typedef struct GaugeWave {
-    double low, high;       ///< of this period [m]
-    double cosine, sine;    ///< sum of 2 eta cos, sin omega t dt of this period [m s]
-    double square;          ///< sum of eta^2 dt [m^2 s], for seas
-    double eta;             ///< of the last sample [m]
-    double height;          ///< mean [m]; NAN before the first whole period
-    double real, imaginary; ///< mean complex amplitude of exp(-i omega t) [m]
+    double cosine[QUALITY_HARMONICS]; ///< sum of 2 eta cos j omega t dt of this period [m s]
+    double sine[QUALITY_HARMONICS];
+    double square;                  ///< sum of eta^2 dt [m^2 s], for seas
+    double eta;                     ///< of the last sample [m]
+    double height;                  ///< [m]; NAN before the first whole period
+    double real[QUALITY_HARMONICS]; ///< means: eta = sum real cos j omega t + imaginary sin [m]
+    double imaginary[QUALITY_HARMONICS];
 } GaugeWave;
 
 /// Plain data; a checkpoint copies it.
