@@ -103,10 +103,10 @@ function compareLine(name, until, simulate) {
   };
 }
 
-const HEADINGS = [0, 45];
+const HEADINGS = [0, 30, 45, 90];
 
 function compareHeadings(simulate) {
-  const name = 'waves_headings', scene = sceneOf(name), period = scene.waves.period_s, until = 9.6;
+  const name = 'waves_headings', scene = sceneOf(name), period = scene.waves.period_s, until = 7.2;
   const wave = referenceWave(scene.waves, scene.domain.depth_m), ratios = [], speeds = [];
   for (const heading of HEADINGS) {
     const run = simulate(name, { until, set: [`waves.heading_deg=${heading}`] });
