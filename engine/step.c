@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "backend/built.h"
+#include "base/built.h"
 #include "contact.h"
 #include "coupling.h"
 #include "engine.h"

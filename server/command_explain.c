@@ -4,7 +4,6 @@
 #include "effects.h"
 #include "json.h"
 
-
 static int particle_total(const Plan *plan)
 {
     return plan->fluid_count + plan->wall_count + plan->body_particle_count;

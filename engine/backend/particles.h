@@ -10,8 +10,8 @@
 
 #include <stdint.h>
 
-#include "backend/built.h"
 #include "base/arena.h"
+#include "base/built.h"
 #include "physics/pair.h"
 
 enum { CLUSTER = 8, FIELDS_MAX = 6, ROW_REACH = 2, SLAB_ROWS = 2 };

@@ -9,8 +9,8 @@
 ///     dv_i/dt = - sum m_k (P_i B_i + P_k B_k) grad_i W_ik + …,
 ///
 /// which keeps momentum. B fades to the unit matrix between 0.975 and 0.84 of M's mean eigenvalue,
-/// det(M)^(1/d): disorder inside is corrected, the surface (a flat one has 0.5) is left alone. There
-/// the plain sum is right where pressure vanishes, and correcting it fed standing waves.
+/// det(M)^(1/d): disorder inside is corrected, the surface (a flat one has 0.5) is left alone.
+/// There the plain sum is right where pressure vanishes, and correcting it fed standing waves.
 /// Sources: Bonet & Lok (1999), doi:10.1016/S0045-7825(99)00051-1; in water waves, Zago et al.
 /// (2021), Coastal Engineering 170. (measured) The limits: docs/physics.md.
 #ifndef FAIRLEAD_PHYSICS_GRADIENT_H

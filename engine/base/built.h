@@ -1,7 +1,7 @@
 /// What a build can do. Leaving all effects out is for comparison only: tests/effects holds the
 /// time of a case that switches them off against it.
-#ifndef FAIRLEAD_BACKEND_BUILT_H
-#define FAIRLEAD_BACKEND_BUILT_H
+#ifndef FAIRLEAD_BASE_BUILT_H
+#define FAIRLEAD_BASE_BUILT_H
 
 #ifdef WITHOUT_EFFECTS
 enum { EFFECTS_BUILT = 0, WALL_SETS = 1 };
