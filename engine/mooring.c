@@ -217,11 +217,35 @@ SpecialNode line_special_node(const LineWork *work, const Vec3 *x, int node)
     return makeup_special_node(&work->makeup, node, place, elevation);
 }
 
+/// An end of a line: half a segment, with its direction and how wet it is.
+typedef struct HalfSegment {
+    const LineConstants *c;
+    Vec3 q; ///< from the anchor to the fairlead; 0 when the segment has parted
+    double wet;
+} HalfSegment;
+
+static HalfSegment half_segment(const LineWork *work, const Vec3 *x, int side)
+{
+    int node = side ? work->node_count - 1 : 0, inner = side ? node - 1 : 1;
+    bool parted = work->makeup.parted[side ? inner : node];
+    const double *elevation = work->water_now[6];
+    double radius = work->makeup.segment[side ? inner : node]->radius;
+    double depth = elevation[node] - x[node].z;
+    double beyond = parted ? depth : elevation[inner] - x[inner].z;
+    HalfSegment half = {work->makeup.node[node], {0, 0, 0}, 1};
+    if (depth < radius || beyond < radius) half.wet = line_wet_fraction(depth, beyond, radius);
+    if (parted) return half;
+    Vec3 d = side ? vec3_sub(x[node], x[inner]) : vec3_sub(x[inner], x[node]);
+    double size = vec3_norm(d);
+    half.q = vec3_scale(d, size > 1e-12 * half.c->length ? 1 / size : 0);
+    return half;
+}
+
 /// Shear of a line that bends, at its end [N].
 static Vec3 end_shear(const LineWork *work, const Vec3 *x, int side)
 {
     int i = side ? work->node_count - 2 : 1;
-    if (!work->makeup.bends || work->node_count < 3) return vec3(0, 0, 0);
+    if (work->node_count < 3) return vec3(0, 0, 0);
     Vec3 force[3];
     Bend bend = makeup_bend(&work->makeup, i, vec3_sub(x[i], x[i - 1]), vec3_sub(x[i + 1], x[i]));
     bend_forces(&bend, force);
@@ -233,23 +257,27 @@ Vec3 line_end_load(const LineWork *work, const Vec3 *x, const Vec3 *v, const dou
 {
     int node = side ? work->node_count - 1 : 0;
     double *const *water = work->water_now;
-    SpecialNode end = line_special_node(work, x, node);
+    HalfSegment end = half_segment(work, x, side);
     Vec3 relative = vec3_sub(vec3(water[0][node], water[1][node], water[2][node]), v[node]);
-    Vec3 acceleration = vec3(water[3][node], water[4][node], water[5][node]);
-    Vec3 pull = vec3_scale(end.q, side ? -tension[node - 1] : tension[0]);
-    Vec3 force = vec3_add(pull, line_drag(&end.sum, 1, end.q, relative));
-    force = vec3_add(force, line_water_inertia(&end.sum, 1, end.q, acceleration));
-    force.z += end.sum.buoyancy - end.sum.weight;
-    return vec3_add(force, end_shear(work, x, side));
+    Vec3 force = vec3_scale(end.q, side ? -tension[node - 1] : tension[0]);
+    force = vec3_add(force, line_drag(end.c, end.wet, end.q, relative));
+    if (work->water_moves)
+        force = vec3_add(force,
+                         line_water_inertia(end.c, end.wet, end.q,
+                                            vec3(water[3][node], water[4][node], water[5][node])));
+    force.z += end.c->buoyancy * end.wet - end.c->weight;
+    return work->makeup.bends ? vec3_add(force, end_shear(work, x, side)) : force;
 }
 
 /// What the mass and added mass of an end's half segment take up of the mean force on it [N].
 static Vec3 end_inertia(const Line *line, int side, Vec3 gained, double duration)
 {
     const LineWork *work = line->workspace;
-    SpecialNode end = line_special_node(work, line->position, side ? line->node_count - 1 : 0);
-    return line_inertia(line_mass_normal(&end.sum, 1, 1), line_mass_tangential(&end.sum, 1, 1),
-                        end.q, vec3_scale(gained, 1 / duration));
+    if (gained.x == 0 && gained.y == 0 && gained.z == 0) return gained; // most anchors
+    HalfSegment end = half_segment(work, line->position, side);
+    return line_inertia(line_mass_normal(end.c, 1, end.wet),
+                        line_mass_tangential(end.c, 1, end.wet), end.q,
+                        vec3_scale(gained, 1 / duration));
 }
 
 static void line_load(Line *line)

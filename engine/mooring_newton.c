@@ -41,6 +41,7 @@ typedef struct Iterate {
     Vec3 x, v, acceleration_known, q;
     double wet, slope; ///< submerged share; change of velocity with place [1/s]
     Vec3 stream, water_acceleration;
+    bool water_moves; ///< false: no acceleration
 } Iterate;
 
 /// Everything about a node but tension and bed: force less inertia, and how it falls with place.
@@ -52,7 +53,8 @@ FN Vec3 linearise(const LineConstants *c, const Iterate *at, Contact *contact, S
     double normal = line_mass_normal(c, 1, wet), tangential = line_mass_tangential(c, 1, wet);
     Vec3 a = vec3_mad(at->acceleration_known, v, slope);
     Vec3 force = vec3_sub(line_drag(c, wet, q, relative), line_inertia(normal, tangential, q, a));
-    force = vec3_add(force, line_water_inertia(c, wet, q, at->water_acceleration));
+    if (at->water_moves)
+        force = vec3_add(force, line_water_inertia(c, wet, q, at->water_acceleration));
     force.z += c->buoyancy * wet - c->weight;
 
     contact->z = at->x.z;
@@ -98,6 +100,7 @@ static void linearise_nodes(const LineWork *work, Implicit *im)
     double *const *water = work->water_now;
     Iterate at;
     at.slope = im->rate_slope;
+    at.water_moves = work->water_moves;
     at.water_acceleration = vec3(0, 0, 0);
     for (int i = im->first; i < im->end; i++) {
         const LineConstants *c = makeup->node[i];
@@ -144,46 +147,55 @@ static void linearise_point(MooringPoint *point)
                   line_wet_fraction(depth, depth, c->radius),
                   im->rate_slope,
                   {water[0][i], water[1][i], water[2][i]},
-                  {water[3][i], water[4][i], water[5][i]}};
+                  {water[3][i], water[4][i], water[5][i]},
+                  work->water_moves};
     own->contact.c = c;
     own->force = linearise(c, &at, &own->contact, &own->linear);
     if (fabs(depth) < c->radius) own->linear.zz += c->buoyancy / (2 * c->radius);
     own->move = vec3(0, 0, 0);
 }
 
+/// Pull of a segment on its lower node after the moves so far; its link in the system.
+FN Vec3 assemble_segment(Implicit *im, int i)
+{
+    const Segment *segment = &im->segments[i];
+    Coupling *link = &im->chain.links[i];
+    Vec3 turned = vec3_sub(im->move[i + 1], im->move[i]);
+    turned = vec3_mad(turned, segment->q, -segment->u);
+    link->along = segment->slope;
+    link->across = segment->across;
+    link->q = segment->q;
+    return vec3_mad(vec3_scale(segment->q, segment->tension), turned, segment->across);
+}
+
+/// A node's own part of the system, with the pulls `f` of its segments and their blocks.
+FN void assemble_node(Implicit *im, int i, Vec3 f, const Segment *below, const Segment *above)
+{
+    Sym3 block = im->linear[i];
+    f = vec3_add(vec3_sub(im->force[i], sym3_apply(&block, im->move[i])), f);
+    f.z += im->contacts[i].force;
+    im->residual[i] = f;
+    im->chain.x[i] = f;
+    block.zz += im->contacts[i].slope;
+    if (above) sym3_add(&block, above->across, above->slope - above->across, above->q);
+    if (below) sym3_add(&block, below->across, below->slope - below->across, below->q);
+    im->chain.diagonal[i] = block;
+}
+
 /// Out-of-balance forces and blocks of the linearised problem at the move so far.
 static void assemble(Implicit *im)
 {
-    Chain *chain = &im->chain;
-    int last = chain->last;
-    chain->x[0] = chain->x[last] = vec3(0, 0, 0);
-    Vec3 below = vec3(0, 0, 0); // pull of the segment below on its upper node, taken from it
-    for (int i = 0; i <= last; i++) {
-        const Segment *segment = &im->segments[i];
-        Vec3 pull = vec3(0, 0, 0);
-        if (i < last) {
-            Vec3 turned = vec3_sub(im->move[i + 1], im->move[i]);
-            turned = vec3_mad(turned, segment->q, -segment->u);
-            pull = vec3_mad(vec3_scale(segment->q, segment->tension), turned, segment->across);
-            chain->links[i].along = segment->slope;
-            chain->links[i].across = segment->across;
-            chain->links[i].q = segment->q;
-        }
-        if (i >= im->first && i < im->end) {
-            const Segment *other = segment - 1;
-            Sym3 block = im->linear[i];
-            Vec3 f = vec3_sub(im->force[i], sym3_apply(&block, im->move[i]));
-            f = vec3_add(f, vec3_sub(pull, below));
-            f.z += im->contacts[i].force;
-            im->residual[i] = chain->x[i] = f;
-            block.zz += im->contacts[i].slope;
-            if (i < last)
-                sym3_add(&block, segment->across, segment->slope - segment->across, segment->q);
-            if (i > 0) sym3_add(&block, other->across, other->slope - other->across, other->q);
-            chain->diagonal[i] = block;
-        }
+    int last = im->chain.last;
+    const Segment *segments = im->segments;
+    im->chain.x[0] = im->chain.x[last] = vec3(0, 0, 0);
+    Vec3 below = assemble_segment(im, 0); // pull on the lower node, taken from the upper one
+    if (im->first == 0) assemble_node(im, 0, below, NULL, &segments[0]);
+    for (int i = 1; i < last; i++) {
+        Vec3 pull = assemble_segment(im, i);
+        assemble_node(im, i, vec3_sub(pull, below), &segments[i - 1], &segments[i]);
         below = pull;
     }
+    if (im->end > last) assemble_node(im, last, vec3_scale(below, -1), &segments[last - 1], NULL);
 }
 
 /// Shear of a line that bends, on top of the rest.
