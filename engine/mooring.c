@@ -71,9 +71,10 @@ void line_settle(Line *line, const WaterField *water)
     }
     line_segments(work, &work->now);
     line_node_forces(work, &work->now);
-    memcpy(line->tension, work->tension + 1, (size_t)last * sizeof(double));
-    for (int i = 0; i < last; i++)
+    for (int i = 0; i < last; i++) {
+        line->tension[i] = work->tension[i + 1];
         line->largest_tension = maxd(line->largest_tension, line->tension[i]);
+    }
     line->anchor_force = vec3(work->fx[0], work->fy[0], work->fz[0]);
     line->fairlead_force = vec3(work->fx[last], work->fy[last], work->fz[last]);
     line->touchdown = touchdown_length(line);
