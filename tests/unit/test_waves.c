@@ -374,7 +374,7 @@ static void check_batch(const WaveState *waves, double time, double depth, doubl
         worst_zone =
             maxd(worst_zone, distance(zone, vec3((double)u[i], (double)v[i], (double)w[i])));
     }
-    CHECK(worst_zone < 3e-5 * height);
+    CHECK(worst_zone < 2e-5 * height);
     CHECK(worst_place < 5e-15);
 }
 
