@@ -112,6 +112,9 @@ static void write_fluid(const Box *box, Fill *fill, int n, Vec3 mean, Vec3 shift
         Vec3 place = fill->fluid_position[n];
         below += waves_elevation(waves, place.x, place.y, 0) * ratio - shift.z;
     }
+    double h = box->scene->fluid.smoothing_ratio * box->scene->fluid.spacing;
+    below +=
+        h * surface_head(maxd(0, below) / h, surface_head_most(box->scene->fluid.smoothing_ratio));
     fill->fluid_excess[n] =
         (float)hydrostatic_excess(below, box->scene->fluid.gravity, box->plan->sound_speed);
 }

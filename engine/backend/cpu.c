@@ -158,6 +158,9 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     b->sweep = make_sweep(b);
     b->excess_floor =
         (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);
+    double h = setup->smoothing_length;
+    b->surface = surface_excess_of(setup->gravity * h / (setup->sound_speed * setup->sound_speed),
+                                   surface_head_most(h / setup->spacing));
     b->excess_alone = (float)excess_alone(setup->smoothing_length, setup->dimensions,
                                           setup->particle_mass, setup->rest_density);
     b->table = sweep_table_choose();

@@ -4,6 +4,7 @@
 
 #include "backend/backend.h"
 #include "backend/sweep.h"
+#include "physics/fluid.h"
 
 /// Velocities that occur in a row: of water, moving dummies and, as zero, fixed dummies [m/s].
 typedef struct VelocitySpan {
@@ -62,9 +63,10 @@ typedef struct Works {
 struct Backend {
     BackendSetup setup;
     Grid grid;
-    double skin;        ///< [m]
-    float excess_floor; ///< density excess at which water tears [-]
-    float excess_alone; ///< least that a particle can have [-]
+    double skin;           ///< [m]
+    float excess_floor;    ///< density excess at which water tears [-]
+    SurfaceExcess surface; ///< what water at rest holds near its surface beyond hydrostatics
+    float excess_alone;    ///< least that a particle can have [-]
     ParticleSet fluid, fixed, moving;
     ClusterList fluid_fluid, fluid_fixed, fluid_moving, fixed_fluid, moving_fluid;
     SortScratch scratch;

@@ -39,11 +39,13 @@ static void block_dynamic(const Backend *b, ParticleSet *f, int begin, int end)
     float weight = (float)(b->setup.rest_density * b->setup.gravity);
     float surface = (float)(b->setup.level - b->grid.origin[2]);
     float diffusion = b->sweep.constants.diffusion;
+    SurfaceExcess near = b->surface;
     for (int i = begin; i < end; i++) {
         float below = surface - unit * (float)f->position[2][i];
         float at_rest = tait_excess(weight * below, tait);
         float bearing = tension_bearing(f->field[EXCESS][i], b->excess_floor);
-        f->dynamic[i] = f->id[i] >= 0 ? diffusion * (bearing - at_rest) : 0.0f;
+        f->dynamic[i] =
+            f->id[i] >= 0 ? diffusion * (bearing - at_rest - surface_excess(bearing, near)) : 0.0f;
     }
 }
 

@@ -71,4 +71,43 @@ FN double hydrostatic_excess(double below, double gravity, double sound_speed)
     return x > -0.5 ? pow(1.0 + x, 1.0 / TAIT_GAMMA) - 1.0 : -0.1;
 }
 
+/// Head that water at rest holds beyond its depth d under a free surface is A (1 - d/1.5)^2, all in
+/// smoothing lengths: the sum of pressures over pairs lacks those above the surface, and the rest
+/// must make up for it. @return A = 0.215 - 0.6 (h/dp)^-4: measured, to 0.01 spacings, at h/dp 1.5
+/// to 3 in 2-D and 3-D (docs/physics.md)
+FN double surface_head_most(double smoothing_ratio)
+{
+    return 0.215 - 0.6 * pow(smoothing_ratio, -4);
+}
+
+/// That head at `below` smoothing lengths under the surface [-].
+FN double surface_head(double below, double most)
+{
+    double left = 1.0 - below / 1.5;
+    return left > 0.0 ? most * left * left : 0.0;
+}
+
+/// The same as a density excess, from the excess a particle at rest has itself.
+typedef struct SurfaceExcess {
+    float least, most; ///< at the surface and 1.5 h under it [-]
+    float factor;      ///< of the squared distance to most
+} SurfaceExcess;
+
+/// With s = c0^2 excess/(g h) = d + A (1 - d/1.5)^2 what remains is 0.95 A [(1.5 - s)/(1.5 - A)]^2
+/// to 0.006. @param scale  g h/c0^2   @param head  A
+FN SurfaceExcess surface_excess_of(double scale, double head)
+{
+    SurfaceExcess e = {(float)(head * scale), (float)(1.5 * scale),
+                       scale > 0 ? (float)(0.95 * head / ((1.5 - head) * (1.5 - head) * scale))
+                                 : 0.0f};
+    return e;
+}
+
+FN float surface_excess(float excess, SurfaceExcess e)
+{
+    float held = excess > e.least ? excess : e.least;
+    float left = held < e.most ? e.most - held : 0.0f;
+    return e.factor * left * left;
+}
+
 #endif

@@ -81,13 +81,23 @@ static void rates(const BackendSetup *setup, const ParticleStart *start, float (
     arena_destroy(&arena);
 }
 
+/// What diffuses: the density excess less that of water at rest at this height and under this load.
+static double dynamic_excess(const BackendSetup *s, int i)
+{
+    double scale = 9.81 * s->smoothing_length / (C0 * C0);
+    double head = 0.215 - 0.6 * pow(s->smoothing_length / DP, -4);
+    double held = maxd((double)excess[i] / scale, head), left = maxd(0, 1.5 - held) / (1.5 - head);
+    return excess[i] - hydrostatic_excess(s->level - place[i].z, 9.81, C0) -
+           0.95 * head * left * left * scale;
+}
+
 /// One particle by the textbook formulas of docs/physics.md, in double.
 static void reference(const BackendSetup *s, int i, double a[3], double *d)
 {
     double h = s->smoothing_length, b = C0 * C0 * RHO0 / 7,
            alpha_d = kernel_constant(h, s->dimensions);
     double rho_i = RHO0 * (1 + (double)excess[i]), p_i = b * (pow(rho_i / RHO0, 7) - 1);
-    double di = excess[i] - hydrostatic_excess(s->level - place[i].z, 9.81, C0);
+    double di = dynamic_excess(s, i);
     a[0] = a[1] = 0;
     a[2] = -9.81;
     *d = 0;
@@ -101,7 +111,7 @@ static void reference(const BackendSetup *s, int i, double a[3], double *d)
         double viscous = vx < 0 ? -s->alpha * C0 * mu / RHO0 : 0;
         double f =
             -s->particle_mass * (p_i / (rho_i * rho_i) + p_k / (rho_k * rho_k) + viscous) * slope;
-        double dk = excess[k] - hydrostatic_excess(s->level - place[k].z, 9.81, C0);
+        double dk = dynamic_excess(s, k);
         a[0] += f * x.x;
         a[1] += f * x.y;
         a[2] += f * x.z;
@@ -267,6 +277,36 @@ TEST(a_density_spike_decays)
     rates(&setup, &start, a, d);
     CHECK(d[spike] < 0);
     CHECK(d[spike + 1] > 0);
+}
+
+/// Largest rate of density in water at rest that holds `share` of the head that its surface asks
+/// for.
+static double largest_rate_at_rest(double share)
+{
+    static float a[N][3], d[N];
+    unsigned seed = 3;
+    BackendSetup setup = random_water(3, 0, seed);
+    double h = setup.smoothing_length;
+    for (int i = 0; i < N; i++) {
+        place[i] = vec3(DP * (i % NX + 0.5), DP * (i / NX % NY + 0.5), DP * (i / (NX * NY) + 0.5));
+        velocity[i] = vec3(0, 0, 0);
+        double below = setup.level - place[i].z;
+        double head = share * h * surface_head(below / h, surface_head_most(2));
+        excess[i] = (float)hydrostatic_excess(below + head, 9.81, C0);
+    }
+    ParticleStart start = all_fluid(N);
+    rates(&setup, &start, a, d);
+    double largest = 0;
+    for (int i = 0; i < N; i++)
+        largest = maxd(largest, fabs((double)d[i]));
+    return largest;
+}
+
+TEST(density_does_not_diffuse_from_the_surface_of_water_at_rest)
+{
+    double left = largest_rate_at_rest(1), without = largest_rate_at_rest(0);
+    printf("  %.2g 1/s, %.2g 1/s where the head is missing\n", left, without);
+    CHECK(left < 0.1 * without);
 }
 
 TEST(switched_off_effects_leave_no_trace_in_the_sums)
