@@ -76,6 +76,27 @@ static float zone_depth(const RelaxationZone *zone, float x, float y)
     return minf(d, e) - (float)zone->width;
 }
 
+/// Water that has come a quarter of a spacing behind the ring's face swims back to it within four
+/// calls. Pressures alone do not hold the corner between the moving ring and the bed, where what is
+/// squeezed finds half a neighbourhood: a steep wave in shallow water (H/L 0.07, kd 0.97, h/dp 2.5)
+/// lost one percent in 15 s there. A velocity, not a jump: lists stay good.
+static void hold_before_ring(const Backend *b, const Advance *advance, Vec3 place, float dt,
+                             float *const velocity[3], int slot)
+{
+    const double at[2] = {place.x, place.y};
+    for (int a = 0; a < (b->setup.dimensions == 2 ? 1 : 2); a++) {
+        double low = advance->zone.side_min[a], high = advance->zone.side_max[a];
+        double side = at[a] < low ? low : high, inwards = at[a] < low ? 1 : -1;
+        if (at[a] >= low && at[a] <= high) continue;
+        Vec3 mean = a == 0 ? vec3(side, place.y, place.z) : vec3(place.x, side, place.z), face;
+        advance->ring(advance->waves, advance->time + 0.5 * advance->dt, 1, &mean, &face);
+        double behind = inwards * ((a == 0 ? face.x : face.y) - at[a]);
+        if (behind < 0.25 * b->setup.spacing) continue;
+        float back = (float)(behind / (4.0 * (double)dt)), *v = &velocity[a][slot];
+        if ((float)inwards * *v < back) *v = (float)inwards * back;
+    }
+}
+
 /// Draw velocities in the zone towards their target: weight q^2, q = 1 - distance/width.
 static void block_relax(const Backend *b, ParticleSet *f, int begin, int end,
                         const Advance *advance, float dt)
@@ -109,6 +130,9 @@ static void block_relax(const Backend *b, ParticleSet *f, int begin, int end,
         f->field[VELOCITY_X][slot[k]] += share[k] * (u[k] - f->field[VELOCITY_X][slot[k]]);
         f->field[VELOCITY_Y][slot[k]] += share[k] * (v[k] - f->field[VELOCITY_Y][slot[k]]);
         f->field[VELOCITY_Z][slot[k]] += share[k] * (w[k] - f->field[VELOCITY_Z][slot[k]]);
+        if (!advance->ring) continue;
+        Vec3 place = vec3((double)x[k], (double)y[k], (double)z[k]);
+        hold_before_ring(b, advance, place, dt, f->field + VELOCITY_X, slot[k]);
     }
 }
 
