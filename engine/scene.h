@@ -115,6 +115,7 @@ typedef struct Focus {
 /// A slow gain on the incident wave (wave_quality.h).
 typedef struct WaveGain {
     int gauge;      ///< index of the gauge whose wave is to be as asked; -1 = none
+    double start;   ///< what the first wave is made with, known from an earlier run [-]
     double largest; ///< bound; one over it is the smallest [-]
     char gauge_name[SCENE_NAME_SIZE]; ///< as the file says it
 } WaveGain;

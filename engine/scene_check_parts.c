@@ -191,6 +191,10 @@ bool case_find_gauges(const JsonReader *reader, CaseFile *draft)
     WaveGain *gain = &scene->waves.gain;
     if (gain->gauge_name[0])
         TRY(find_gauge(reader, scene, "waves.gain.gauge", gain->gauge_name, &gain->gauge));
+    if (gain->start > gain->largest || gain->start * gain->largest < 1)
+        return table_refuse(reader, "waves.gain.start", NULL,
+                            "%g must be from 1/%g to %g, waves.gain.largest", gain->start,
+                            gain->largest, gain->largest);
     for (int i = 0; i < 3 && draft->quality_names[0][0]; i++) {
         char at[JSON_PATH_SIZE];
         snprintf(at, sizeof at, "probes.wave_quality.%s", words[i]);

@@ -35,6 +35,7 @@ Scene scene_default(void)
     waves->focus.time = NAN; // required for a group
     waves->piston_order = 2;
     waves->gain.gauge = -1;
+    waves->gain.start = 1;
     waves->gain.largest = 1.25;
     waves->initial.height = waves->initial.period = NAN;
     waves->initial.heading = 0;

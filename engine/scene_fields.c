@@ -81,6 +81,7 @@ static const JsonTable FOCUS_TABLE = {FOCUS_FIELDS, COUNT(FOCUS_FIELDS), NULL};
 
 static const JsonField GAIN_FIELDS[] = {
     {"gauge", FIELD_NAME, true, IN_CASE(scene.waves.gain.gauge_name), .count_max = SCENE_NAME_SIZE},
+    {"start", FIELD_NUMBER, IN_CASE(scene.waves.gain.start), .min = 0.5, .max = 2},
     {"largest", FIELD_NUMBER, IN_CASE(scene.waves.gain.largest), .min = 1, .max = 2},
 };
 static const JsonTable GAIN_TABLE = {GAIN_FIELDS, COUNT(GAIN_FIELDS), NULL};

@@ -109,12 +109,12 @@ WaveState waves_create(const Scene *scene)
     if (scene->waves.kind == WAVES_NONE) return waves;
     waves.asked = scene->waves.initial;
     waves.interior = interior_create(scene);
-    waves.gain = 1;
+    waves.gain = scene->waves.gain.gauge >= 0 ? scene->waves.gain.start : 1;
     waves.piston_order = scene->waves.piston_order;
     WaveLayer *base = &waves.layers[0];
     base->target = waves.asked;
-    base->gain = 1;
-    base->train = train_create(scene, &waves.asked, 1);
+    base->gain = waves.gain;
+    base->train = train_create(scene, &waves.asked, waves.gain);
     waves.layer_count = 1;
     if (scene->waves.start == WAVE_START_RAMP && scene->waves.ramp_time > 0) {
         waves.layers[1] = *base;

@@ -89,7 +89,7 @@ TEST(heights_and_reflection_are_told_once_the_waves_have_settled)
 TEST(the_gain_brings_the_wave_at_its_gauge_to_the_height_asked_for_slowly_and_within_bounds)
 {
     Scene *scene = scene_of(WAVES_REGULAR);
-    scene->waves.gain = (WaveGain){1, 1.25, "b"};
+    scene->waves.gain = (WaveGain){1, 1, 1.25, "b"};
     WaveState waves = waves_create(scene);
     WaveQuality quality = wave_quality_create();
     Water water = {scene, &waves, 0, 0.9, 0};
@@ -101,6 +101,21 @@ TEST(the_gain_brings_the_wave_at_its_gauge_to_the_height_asked_for_slowly_and_wi
     water.height = 0.5;
     run(&water, &quality, &waves, 80);
     CHECK_NEAR(waves.gain, 1.25, 1e-12);
+}
+
+TEST(a_gain_known_beforehand_makes_the_first_wave)
+{
+    Scene *scene = scene_of(WAVES_REGULAR);
+    scene->waves.gain = (WaveGain){1, 1 / 0.9, 1.25, "b"};
+    WaveState waves = waves_create(scene);
+    CHECK(waves.gain == 1 / 0.9);
+    WaveQuality quality = wave_quality_create();
+    Water water = {scene, &waves, 0, 0.9, 0};
+    run(&water, &quality, &waves, 40);
+    CHECK_NEAR(quality.gauge[QUALITY_GAUGES].height / 0.06, 1, 0.004);
+    CHECK_NEAR(waves.gain, 1 / 0.9, 0.004);
+    scene->waves.gain.gauge = -1;
+    CHECK(waves_create(scene).gain == 1);
 }
 
 TEST(a_case_that_does_not_ask_is_not_judged)
