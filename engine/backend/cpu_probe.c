@@ -74,23 +74,48 @@ static double highest_near(const Backend *b, double x, double y)
     return top < 0 ? NAN : to_metres(&b->grid, 2, top);
 }
 
-/// The colour function sum m/rho W is 1 in the water, 0 above, one half at the surface of a lattice
-/// whose outermost particles lie dp/2 below it.
+/// A column looked at from above: how much of it was wet so far.
+typedef struct Wet {
+    double upper;  ///< top of the stretch that is being looked at; NAN in the air [m]
+    double clumps; ///< length of all stretches above it [m]
+} Wet;
+
+/// Go down through the samples of a window. @return whether solid water was met
+static bool look_down(Wet *wet, const double *colour, double z0, double dz, double solid)
+{
+    if (colour[COLUMN_SAMPLES - 1] >= 0.5 && !isfinite(wet->upper))
+        wet->upper = z0 + dz * (COLUMN_SAMPLES - 1); // beside a steeper face than the search allows
+    for (int k = COLUMN_SAMPLES - 1; k > 0; k--) {
+        double above = colour[k], below = colour[k - 1];
+        double z = z0 + dz * (k - 1 + (above == below ? 0 : (below - 0.5) / (below - above)));
+        if (above < 0.5 && below >= 0.5) wet->upper = z;
+        if (above >= 0.5 && below < 0.5 && isfinite(wet->upper)) {
+            wet->clumps += wet->upper - z;
+            wet->upper = NAN;
+        }
+        if (isfinite(wet->upper) && wet->upper - (z0 + dz * (k - 1)) >= solid) return true;
+    }
+    return false;
+}
+
+/// What a wave wire reads: how far it is wet. The colour function sum m/rho W is 1 in the water, 0
+/// above, one half at the surface of a lattice whose outermost particles lie dp/2 below it. Four
+/// spacings of water, or what stands on the bed, is where the wire is wet from there down; drops,
+/// sheets and tongues above add their own length, not the air under them.
 double cpu_elevation(Backend *b, double x, double y)
 {
     cpu_refresh_boxes(b);
     double colour[COLUMN_SAMPLES], top = highest_near(b, x, y);
-    double dp = b->setup.spacing, dz = 6 * dp / (COLUMN_SAMPLES - 1);
-    // spray: look below until there is water under the sample
-    for (int attempt = 0; attempt < 8 && isfinite(top); attempt++) {
-        double z0 = top - 4 * dp;
-        column_colour(b, x, y, z0, dz, COLUMN_SAMPLES, colour);
-        for (int k = COLUMN_SAMPLES - 1; k > 0; k--)
-            if (colour[k] < 0.5 && colour[k - 1] >= 0.5)
-                return z0 + dz * (k - 1 + (colour[k - 1] - 0.5) / (colour[k - 1] - colour[k]));
-        top = z0;
+    if (!isfinite(top)) return NAN;
+    double dp = b->setup.spacing, length = 6 * dp, dz = length / (COLUMN_SAMPLES - 1);
+    double bed = isfinite(b->setup.barrier_min[2]) ? b->setup.barrier_min[2] : b->setup.room_min[2];
+    Wet wet = {NAN, 0};
+    for (double high = top + 2 * dp; high > bed; high -= length) {
+        column_colour(b, x, y, high - length, dz, COLUMN_SAMPLES, colour);
+        if (look_down(&wet, colour, high - length, dz, 4 * dp)) return wet.upper + wet.clumps;
     }
-    return NAN;
+    if (isfinite(wet.upper)) return wet.upper + wet.clumps;
+    return wet.clumps > 0 ? bed + wet.clumps : NAN;
 }
 
 double cpu_pressure(Backend *b, Vec3 point, Vec3 normal)

@@ -44,6 +44,29 @@ TEST(a_pressure_point_moves_and_turns_with_its_body)
     finish(run);
 }
 
+/// Two spacings of water high above a layer, as spray has it.
+TEST(a_gauge_reads_how_far_it_is_wet)
+{
+    Scene scene = tank_2d(0.025);
+    scene.domain.max.z = 1.5;
+    scene.fluid.block_count = 2;
+    scene.fluid.blocks[0] = (FluidBlock){vec3(-1, -0.5, -0.5), vec3(1, 0.5, -0.3)};
+    scene.fluid.blocks[1] = (FluidBlock){vec3(0, -0.5, 1.2), vec3(1, 0.5, 1.25)};
+    scene.gauge_count = 2;
+    scene.gauges[0].x = -0.5; // under nothing
+    scene.gauges[1].x = 0.5;  // under the drop, far below it
+    Run *run = start(&scene, 1);
+    CHECK_NEAR(probe_elevation(&run->scene, run->state, 0), -0.3, 0.05 * 0.025);
+    CHECK_NEAR(probe_elevation(&run->scene, run->state, 1), -0.25, 0.2 * 0.025);
+    finish(run);
+    // a film on the bed, thinner than what counts as solid
+    scene.fluid.blocks[0].max.z = -0.45;
+    run = start(&scene, 1);
+    CHECK_NEAR(probe_elevation(&run->scene, run->state, 0), -0.45, 0.2 * 0.025);
+    CHECK_NEAR(probe_elevation(&run->scene, run->state, 1), -0.4, 0.3 * 0.025);
+    finish(run);
+}
+
 TEST(a_normal_chooses_the_side_whose_water_counts)
 {
     Scene scene = tank_2d(0.025);
