@@ -1,7 +1,7 @@
 /** One uPlot chart of a panel: axes, value range, marks of changes as elements over the plot. */
 import uPlot from "uplot";
 import { digitsOfStep, fixed, significant } from "./format.ts";
-import { groupMarks, type Mark } from "./markers.ts";
+import { groupMarks, type Mark, type Place, placeLabels } from "./markers.ts";
 import type { Palette } from "./palette.ts";
 import type { Panel } from "./panels.ts";
 import type { Drawn } from "./series.ts";
@@ -11,6 +11,10 @@ const VALUE_AXIS_PX = 52;
 const TIME_AXIS_PX = 24;
 const LEAST_MARK_DISTANCE_PX = 14;
 const LABEL_ROWS = 2;
+/** Of the widest figures and letters in the marks' font; a little too much is better than too little. */
+const LABEL_CHARACTER_PX = 6.5;
+const LABEL_MARGIN_PX = 12;
+const LABEL_MOST_PX = 184; // plots.css cuts them at 176
 
 export type ChartOptions = {
   panel: Panel;
@@ -130,26 +134,29 @@ export class Chart {
     const [begin, end] = this.range;
     const width = this.width;
     if (!this.markLayer || width === 0) return;
-    const groups = groupMarks(this.marks, ((end - begin) * LEAST_MARK_DISTANCE_PX) / width);
+    const groups = groupMarks(this.marks, ((end - begin) * LEAST_MARK_DISTANCE_PX) / width)
+      .filter(({ time_s }) => time_s >= begin && time_s <= end);
+    const at = groups.map(({ time_s }) => ((time_s - begin) / (end - begin)) * width);
+    const lengths = groups.map(({ label }) => Math.min(label.length * LABEL_CHARACTER_PX + LABEL_MARGIN_PX, LABEL_MOST_PX));
+    const places = this.options.labels ? placeLabels(at, lengths, width, LABEL_ROWS) : [];
     this.markLayer.replaceChildren(
-      ...groups.flatMap(({ time_s, label, detail }, index) => {
-        if (time_s < begin || time_s > end) return [];
+      ...groups.map(({ label, detail }, index) => {
         const line = document.createElement("div");
         line.className = "mark";
-        line.style.left = `${((time_s - begin) / (end - begin)) * 100}%`;
+        line.style.left = `${(100 * (at[index] as number)) / width}%`;
         line.title = detail;
-        if (this.options.labels) line.append(labelOf(label, index, (time_s - begin) / (end - begin)));
-        return [line];
+        const place = places[index];
+        if (place) line.append(labelOf(label, place));
+        return line;
       }),
     );
   }
 }
 
-/** A label to the right of its line, or to the left where there is no room; neighbours in two rows. */
-function labelOf(text: string, index: number, fraction: number): HTMLElement {
+function labelOf(text: string, place: Place): HTMLElement {
   const label = document.createElement("span");
-  label.className = fraction > 0.6 ? "label left" : "label";
-  label.style.setProperty("--row", String(index % LABEL_ROWS));
+  label.className = place.left ? "label left" : "label";
+  label.style.setProperty("--row", String(place.row));
   label.textContent = text;
   return label;
 }

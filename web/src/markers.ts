@@ -32,3 +32,29 @@ export function groupMarks(marks: readonly Mark[], apart: number): Group[] {
     };
   });
 }
+
+/** Where the text of a mark goes: a row, and whether it stands left of its line. */
+export type Place = { readonly row: number; readonly left: boolean };
+
+/**
+ * Rows for the texts of marks, so that none lies upon another; the newest ones are placed first. What finds no room keeps
+ * its line, whose title tells it.
+ * @param at  places of the lines [px], ascending
+ * @param lengths  of the texts [px]
+ * @param width  of the plot [px]
+ * @param rows  how many there are
+ */
+export function placeLabels(at: readonly number[], lengths: readonly number[], width: number, rows: number): (Place | null)[] {
+  const places: (Place | null)[] = at.map(() => null);
+  const taken: [number, number][][] = Array.from({ length: rows }, () => []);
+  for (let i = at.length - 1; i >= 0; i--) {
+    const [x, length] = [at[i] as number, lengths[i] as number];
+    const left = x + length > width;
+    const [from, to] = left ? [x - length, x] : [x, x + length];
+    const row = taken.findIndex((others) => others.every(([begin, end]) => to <= begin || from >= end));
+    if (row < 0) continue;
+    taken[row]?.push([from, to]);
+    places[i] = { row, left };
+  }
+  return places;
+}
