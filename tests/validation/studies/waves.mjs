@@ -90,7 +90,7 @@ function compareLine(name, until, simulate) {
         `H/dp ${(wave.H_m / scene.fluid.spacing_m).toFixed(1)}; L ${wave.lambda_m} m, c ${wave.c_m_s} m/s; last ${PERIODS} periods of ${until} s.`,
       `Mean height ${percent(mean(ratios))} of asked, loss ${percent(1 - Math.exp(-fitted.m * wave.lambda_m))} per wave length, gain ` +
         `${last('wave_quality.gain').toFixed(3)}, crests ${percent(mean(gauges.map((g) => g.crest)) / wave.eta_crest_m)} of the reference, ` +
-        `reflection by three gauges ${percent(last('wave_quality.reflection'))}.`,
+        (Number.isFinite(last('wave_quality.reflection')) ? `reflection by three gauges ${percent(last('wave_quality.reflection'))}.` : 'the run is too short for the live reading of the reflection.'),
     ],
     plot: { columns: 2, panels: [
       { x: 'x [m]', y: 'height over asked', title: 'height along the way', curves: [
