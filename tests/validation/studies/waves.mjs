@@ -93,10 +93,10 @@ function compareLine(name, until, simulate) {
         (Number.isFinite(last('wave_quality.reflection')) ? `reflection by three gauges ${percent(last('wave_quality.reflection'))}.` : 'the run is too short for the live reading of the reflection.'),
     ],
     plot: { columns: 2, panels: [
-      { x: 'x [m]', y: 'height over asked', title: 'height along the way', curves: [
-        { label: 'asked', x: [xs[0], xs.at(-1)], y: [1, 1], style: 'dashed' },
+      { x: 'x [m]', y: 'height over asked', title: 'height along the way', yrange: [0.94, 1.08], curves: [
+        ...[0.97, 1.03].map((y) => ({ label: y < 1 ? '' : 'bar', x: [xs[0], xs.at(-1)], y: [y, y], style: 'dashed' })),
         { label: 'measured', x: xs, y: ratios, style: 'points', colour: '#0b5fa5' }] },
-      { x: 't [s]', y: 'elevation [m]', title: 'middle gauge, last periods', curves: [
+      { x: 't [s]', y: 'elevation [m]', title: 'middle gauge, last periods', yrange: [1.4 * wave.eta_trough_m, 1.9 * wave.eta_crest_m], curves: [
         { label: 'crest, trough of the reference', x: [run.time.at(-1) - 3 * period, run.time.at(-1)], y: [wave.eta_crest_m, wave.eta_crest_m], style: 'dashed' },
         { x: [run.time.at(-1) - 3 * period, run.time.at(-1)], y: [wave.eta_trough_m, wave.eta_trough_m], style: 'dashed' },
         { label: 'measured', x: window(run.time, run.time, run.time.at(-1) - 3 * period, Infinity),
