@@ -6,6 +6,24 @@
 
 #include "step.h"
 
+/// Lines and bodies that disagree on what they exchanged are not sick, but never silent.
+static void note_exchange(const Scene *scene, State *state)
+{
+    if (!state->ledger || state->step < LEDGER_STEPS_LEAST) return;
+    for (int b = 0; b < scene->body_count; b++) {
+        if (!state->ledger->body[b].holds || state->health.status != HEALTH_GOOD) continue;
+        LedgerBalance balance =
+            line_ledger_balance(state->ledger, scene, state->bodies, state->lines, b);
+        if (balance.good) continue;
+        snprintf(state->health.message, sizeof state->health.message,
+                 "body %s: it and its lines differ on what they exchanged until t = %.3f s: "
+                 "impulse by %.2g (limit %g), its moment by %.2g (%g), work by %.2g (%g) of all",
+                 scene->bodies[b].name, state->time, balance.impulse_error, LEDGER_IMPULSE_BOUND,
+                 balance.angular_error, LEDGER_IMPULSE_BOUND, balance.work_error,
+                 LEDGER_WORK_BOUND);
+    }
+}
+
 void health_checkpoint(const Scene *scene, State *state)
 {
     Checkpoint *c = &state->checkpoint;
@@ -17,6 +35,7 @@ void health_checkpoint(const Scene *scene, State *state)
         health->tries--;
         state->time_step *= 2;
     }
+    note_exchange(scene, state);
     c->time = state->time;
     c->step = state->step;
     if (c->waves) *c->waves = *state->waves;
@@ -28,6 +47,7 @@ void health_checkpoint(const Scene *scene, State *state)
         line_state_save(&state->lines[l], c->lines[l]);
     memcpy(c->watches, state->watches, (size_t)scene->line_count * sizeof(LineWatch));
     memcpy(c->orders, state->orders, (size_t)scene->line_count * sizeof(LineOrder));
+    if (c->ledger) *c->ledger = *state->ledger;
     state->backend->save(state->particles, c->particles);
 }
 
@@ -42,6 +62,7 @@ static void roll_back(const Scene *scene, State *state)
     for (int l = 0; l < scene->line_count; l++)
         line_state_restore(&state->lines[l], c->lines[l]);
     memcpy(state->watches, c->watches, (size_t)scene->line_count * sizeof(LineWatch));
+    if (c->ledger) *state->ledger = *c->ledger;
     state->backend->restore(state->particles, c->particles);
     // commands given since the checkpoint stay in force
     for (int l = 0; l < scene->line_count; l++) {

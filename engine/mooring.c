@@ -361,6 +361,8 @@ static void finish_ends(Line *line, double duration)
         Vec3 pull = vec3_sub(mean, inertia);
         *(side ? &line->fairlead_force : &line->anchor_force) = pull;
         line->pull[side] = vec3_add(pull, change);
+        Vec3 path = vec3_add(line->velocity[end], work->end_velocity[side]);
+        line->work[side] = work->end_work[side] - 0.5 * duration * vec3_dot(inertia, path);
         work->end_inertia[side] = inertia;
     }
 }
@@ -379,6 +381,7 @@ bool net_advance(LineNet *net, const WaterField *water, const LineSpan *spans, E
             work->end_velocity[side] =
                 free ? line->velocity[side ? line->node_count - 1 : 0] : path->velocity[0];
             work->end_force[side] = vec3(0, 0, 0);
+            work->end_work[side] = 0;
             work->load_before[side] = work->end_load[side];
         }
     }

@@ -40,8 +40,9 @@ typedef struct Line {
     Vec3
         fairlead_force; ///< the line's pull on what holds its fairlead [N], mean over the last step
     Vec3 anchor_force;  ///< the same at the anchor [N]
-    Vec3 pull[2]; ///< the same at anchor and fairlead, carried on from the middle of the step to
-                  ///< its end: what their holders feel over the next [N]
+    Vec3 pull[2];   ///< the same at anchor and fairlead, carried on from the middle of the step to
+                    ///< its end: what their holders feel over the next [N]
+    double work[2]; ///< on what holds anchor and fairlead over the last step, along their paths [J]
     double largest_tension; ///< so far [N]
     double touchdown;       ///< length lying on the bed [m]
     double step_limit;      ///< explicit limit of the sub-step [s]

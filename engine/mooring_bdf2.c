@@ -160,14 +160,19 @@ Chain *line_bdf2_chain(const Line *line)
 
 void line_bdf2_forget(Line *line) { *history_of(line).step = 0; }
 
-/// The line's state has gone on by h: so has the impulse on its ends, by the trapezoidal rule.
+/// The line's state has gone on by h: so have impulse and work on its ends, by the trapezoidal
+/// rule.
 static void add_end_loads(Line *line, double h)
 {
     LineWork *work = line->workspace;
+    History past = history_of(line);
     for (int side = 0; side < 2; side++) {
+        int end = side ? line->node_count - 1 : 0;
+        Vec3 moved = vec3_sub(line->position[end], past.position[end]);
         Vec3 load = line_end_load(work, line->position, line->velocity, line->tension, side);
         Vec3 sum = vec3_add(work->end_load[side], load);
         work->end_force[side] = vec3_mad(work->end_force[side], sum, 0.5 * h);
+        work->end_work[side] += 0.5 * vec3_dot(sum, moved);
         work->end_load[side] = load;
     }
 }

@@ -42,6 +42,7 @@ typedef struct LineWork {
     double *sample_elevation;
     bool water_moves;     ///< false: still water, `water_now` need not change
     Vec3 end_force[2];    ///< time integral over the call: anchor, fairlead [N s]
+    double end_work[2];   ///< of that force along the ends' paths [J]
     Vec3 end_velocity[2]; ///< at its begin [m/s]
     Vec3 end_load[2];     ///< what acts on the half segments at the ends now, bed apart [N]
     Vec3 load_before[2];  ///< the same at the call's begin [N]

@@ -258,6 +258,12 @@ static void net_forces(LineNet *net, bool middle, double fraction)
         move_point(net->points[p], middle);
 }
 
+static Vec3 end_place(const LineWork *work, int side)
+{
+    int end = side ? work->node_count - 1 : 0;
+    return vec3(work->now.x[end], work->now.y[end], work->now.z[end]);
+}
+
 static void net_substep(LineNet *net, const LineSpan *spans, long k, long count, double h)
 {
     double begin = (double)k / (double)count, half = ((double)k + 0.5) / (double)count;
@@ -272,13 +278,15 @@ static void net_substep(LineNet *net, const LineSpan *spans, long k, long count,
     net_forces(net, true, half);
     for (int l = 0; l < net->line_count; l++) {
         LineWork *work = net->lines[l]->workspace;
-        int last = work->node_count - 1;
+        Vec3 from[2] = {end_place(work, 0), end_place(work, 1)};
         nodes_move(work, &work->now, &work->now, &work->middle, h);
         line_hold_ends(work, &work->now, &spans[l], (double)(k + 1) / (double)count);
-        work->end_force[0] =
-            vec3_mad(work->end_force[0], vec3(work->fx[0], work->fy[0], work->fz[0]), h);
-        work->end_force[1] =
-            vec3_mad(work->end_force[1], vec3(work->fx[last], work->fy[last], work->fz[last]), h);
+        for (int side = 0; side < 2; side++) {
+            int end = side ? work->node_count - 1 : 0;
+            Vec3 force = vec3(work->fx[end], work->fy[end], work->fz[end]);
+            work->end_force[side] = vec3_mad(work->end_force[side], force, h);
+            work->end_work[side] += vec3_dot(force, vec3_sub(end_place(work, side), from[side]));
+        }
     }
 }
 

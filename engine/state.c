@@ -141,6 +141,8 @@ static bool create_bodies_and_lines(const Scene *scene, const Plan *plan, State 
     state->lines = state->mooring.lines;
     for (int l = 0; l < scene->line_count; l++)
         state->watches[l] = line_watch_create(&state->lines[l], &water);
+    TRY(state->ledger = arena_take(&state->arena, 1, sizeof(LineLedger), "lines", error));
+    *state->ledger = line_ledger_create(scene, state->bodies, &state->mooring);
     return true;
 }
 
@@ -155,6 +157,8 @@ static bool create_checkpoint(const Scene *scene, State *state, Error *error)
     TRY(c->lines = arena_take(&state->arena, lines, sizeof(double *), "checkpoint", error));
     TRY(c->watches = arena_take(&state->arena, lines, sizeof(LineWatch), "checkpoint", error));
     TRY(c->orders = arena_take(&state->arena, lines, sizeof(LineOrder), "checkpoint", error));
+    if (state->ledger)
+        TRY(c->ledger = arena_take(&state->arena, 1, sizeof(LineLedger), "checkpoint", error));
     for (int l = 0; l < scene->line_count; l++)
         TRY(c->lines[l] = arena_take(&state->arena, line_state_size(&state->lines[l]),
                                      sizeof(double), "checkpoint", error));

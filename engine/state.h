@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "body.h"
 #include "command.h"
+#include "line_ledger.h"
 #include "line_watch.h"
 #include "plan.h"
 #include "slamming.h"
@@ -37,6 +38,7 @@ typedef struct Checkpoint {
     Slamming *slammings;
     LineWatch *watches;
     LineOrder *orders;
+    LineLedger *ledger;
     void *particles; ///< Backend.save
 } Checkpoint;
 
@@ -59,6 +61,7 @@ typedef struct State {
     LineWatch *watches;   ///< [scene->line_count]
     LineOrder *orders;    ///< [scene->line_count]
     LineEvents *events;   ///< of all lines; NULL without lines
+    LineLedger *ledger;   ///< what they exchange with bodies; NULL without lines
     HealthRecord health;
     double wall_time;                            ///< spent in step_advance [s]
     double smallest_step, largest_step;          ///< used so far [s]

@@ -92,6 +92,7 @@ static bool advance_lines(const Scene *scene, State *state, double dt, const Lin
     NodeWater nodes;
     WaterField water = line_water(scene, state, &nodes);
     TRY(mooring_advance(&state->mooring, &water, state->time, dt, paths->end, error));
+    line_ledger_step(state->ledger, scene, state->bodies, state->lines, paths, dt);
     for (int l = 0; l < scene->line_count; l++)
         line_watch_step(&state->watches[l], &state->lines[l], l, state->time + dt, state->events);
     return true;

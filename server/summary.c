@@ -35,6 +35,54 @@ static void write_lines(Json *json, const SummaryInfo *info)
     json_array_end(json);
 }
 
+static void write_vector(Json *json, const char *key, Vec3 v)
+{
+    json_array(json, key);
+    json_number(json, NULL, v.x);
+    json_number(json, NULL, v.y);
+    json_number(json, NULL, v.z);
+    json_array_end(json);
+}
+
+static void write_exchange(Json *json, const char *key, const Exchange *sums)
+{
+    json_object(json, key);
+    write_vector(json, "impulse_n_s", sums->impulse);
+    write_vector(json, "angular_impulse_n_m_s", sums->angular_impulse);
+    json_number(json, "work_j", sums->work);
+    json_object_end(json);
+}
+
+/// What bodies and lines gave each other, by both accounts, and where the lines' energy went.
+static void write_ledger(Json *json, const SummaryInfo *info)
+{
+    const Scene *scene = info->scene;
+    const State *state = info->state;
+    const LineLedger *ledger = state->ledger;
+    if (!ledger) return;
+    json_object(json, "lines_exchange");
+    json_array(json, "bodies");
+    for (int b = 0; b < scene->body_count; b++) {
+        if (!ledger->body[b].holds) continue;
+        LedgerBalance balance = line_ledger_balance(ledger, scene, state->bodies, state->lines, b);
+        json_object(json, NULL);
+        json_string(json, "name", scene->bodies[b].name);
+        write_exchange(json, "taken_by_body", &balance.taken);
+        write_exchange(json, "given_by_lines", &balance.given);
+        json_number(json, "impulse_error", balance.impulse_error);
+        json_number(json, "angular_impulse_error", balance.angular_error);
+        json_number(json, "work_error", balance.work_error);
+        json_bool(json, "within_bounds", balance.good);
+        json_object_end(json);
+    }
+    json_array_end(json);
+    double gained = mooring_energy(&state->mooring) - ledger->energy_start;
+    json_number(json, "work_on_lines_j", ledger->holders_work);
+    json_number(json, "energy_gained_j", gained);
+    json_number(json, "energy_spent_j", ledger->holders_work - gained);
+    json_object_end(json);
+}
+
 static void write_quality(Json *json, const SummaryInfo *info)
 {
     const Scene *scene = info->scene;
@@ -84,6 +132,7 @@ void summary_format(Text *text, const SummaryInfo *info)
     write_health(&json, info);
     effects_write_costs(&json, info->plan, info->state);
     write_lines(&json, info);
+    write_ledger(&json, info);
     write_quality(&json, info);
     json_integer(&json, "frames", info->frame_count);
     json_string(&json, "exit", reasons[info->how]);

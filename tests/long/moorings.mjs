@@ -12,6 +12,8 @@ for (const name of ['moored_box', 'moored_ship', 'moored_ship_pendant']) {
     fact(`${name}, ${line.name}: pulls or hangs, never pushes, N at least`, Math.min(...tension), Math.min(...tension) >= 0);
     console.log(`     at rest ${line.tension_at_rest_n.toFixed(3)} N, largest ${line.largest_tension_n.toFixed(3)} N, snaps ${line.snaps}`);
   }
+  for (const body of summary.lines_exchange.bodies)
+    fact(`${name}, ${body.name}: exchanges with its lines within bounds, work off by`, body.work_error, body.within_bounds);
   const share = summary.effects.find((effect) => effect.name === 'mooring_lines').share;
   fact(`${name}: lines' share of a step below 2 %`, share, share < 0.02);
 }
