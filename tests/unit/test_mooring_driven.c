@@ -150,8 +150,9 @@ TEST(rope_snaps_to_3573_newtons_at_4_98_seconds)
 
 /// The reference lets the bed pull a node back as it lifts off and slack segments push; ours must
 /// not. With both let in, ours has 83.5 and 70.3 N (0.5 and 1.4 % off); without, 82.2 and 67.0 N at
-/// every step of either stepper (2.1 and 3.4 %). Sampled every 10 ms as the reference is, ours is
-/// anything from 66.5 to 68.8 N, for the spikes last a millisecond.
+/// every step of either stepper (2.1 and 3.4 %): the bed's pull alone does it (docs/mooring.md).
+/// Sampled every 10 ms as the reference is, ours is anything from 66.5 to 68.8 N, for the spikes
+/// last a millisecond.
 TEST(single_point_chain_on_an_ellipse_has_the_reference_s_mean_and_first_harmonic)
 {
     check_mean_and_harmonic("d1", LINE_STEPPER_RK2, 0.001, 83.918, 69.325, 0.03, 0.036);
