@@ -109,7 +109,9 @@ WaveState waves_create(const Scene *scene)
     if (scene->waves.kind == WAVES_NONE) return waves;
     waves.asked = scene->waves.initial;
     waves.interior = interior_create(scene);
-    waves.gain = scene->waves.gain.gauge >= 0 ? scene->waves.gain.start : 1;
+    const WaveGain *gain = &scene->waves.gain;
+    waves.gain =
+        gain->gauge >= 0 && gain->start > 0 ? gain->start : 1; // a scene of zeros has no gain
     waves.piston_order = scene->waves.piston_order;
     WaveLayer *base = &waves.layers[0];
     base->target = waves.asked;

@@ -80,20 +80,31 @@ static float zone_depth(const RelaxationZone *zone, float x, float y)
 /// calls. Pressures alone do not hold the corner between the moving ring and the bed, where what is
 /// squeezed finds half a neighbourhood: a steep wave in shallow water (H/L 0.07, kd 0.97, h/dp 2.5)
 /// lost one percent in 15 s there. A velocity, not a jump: lists stay good.
-static void hold_before_ring(const Backend *b, const Advance *advance, Vec3 place, float dt,
-                             float *const velocity[3], int slot)
+/// @param place  of `count` particles in `slot` [m]
+static void hold_before_ring(const Backend *b, ParticleSet *f, const Advance *advance, float dt,
+                             int count, const float *const place[3], const int *slot)
 {
-    const double at[2] = {place.x, place.y};
+    Vec3 mean[BLOCK], face[BLOCK];
+    int who[BLOCK];
     for (int a = 0; a < (b->setup.dimensions == 2 ? 1 : 2); a++) {
-        double low = advance->zone.side_min[a], high = advance->zone.side_max[a];
-        double side = at[a] < low ? low : high, inwards = at[a] < low ? 1 : -1;
-        if (at[a] >= low && at[a] <= high) continue;
-        Vec3 mean = a == 0 ? vec3(side, place.y, place.z) : vec3(place.x, side, place.z), face;
-        advance->ring(advance->waves, advance->time + 0.5 * advance->dt, 1, &mean, &face);
-        double behind = inwards * ((a == 0 ? face.x : face.y) - at[a]);
-        if (behind < 0.25 * b->setup.spacing) continue;
-        float back = (float)(behind / (4.0 * (double)dt)), *v = &velocity[a][slot];
-        if ((float)inwards * *v < back) *v = (float)inwards * back;
+        const float low = (float)advance->zone.side_min[a], high = (float)advance->zone.side_max[a];
+        int outside = 0;
+        for (int k = 0; k < count; k++) {
+            float at = place[a][k], side = at < low ? low : high;
+            if (at >= low && at <= high) continue;
+            mean[outside] = vec3((double)place[0][k], (double)place[1][k], (double)place[2][k]);
+            *(a == 0 ? &mean[outside].x : &mean[outside].y) = (double)side;
+            who[outside++] = k;
+        }
+        if (!outside) continue;
+        advance->ring(advance->waves, advance->time + 0.5 * advance->dt, outside, mean, face);
+        for (int n = 0; n < outside; n++) {
+            float at = place[a][who[n]], inwards = at < low ? 1.0f : -1.0f;
+            float behind = inwards * ((float)(a == 0 ? face[n].x : face[n].y) - at);
+            if (behind < 0.25f * (float)b->setup.spacing) continue;
+            float back = behind / (4.0f * dt), *v = &f->field[VELOCITY_X + a][slot[who[n]]];
+            if (inwards * *v < back) *v = inwards * back;
+        }
     }
 }
 
@@ -130,10 +141,9 @@ static void block_relax(const Backend *b, ParticleSet *f, int begin, int end,
         f->field[VELOCITY_X][slot[k]] += share[k] * (u[k] - f->field[VELOCITY_X][slot[k]]);
         f->field[VELOCITY_Y][slot[k]] += share[k] * (v[k] - f->field[VELOCITY_Y][slot[k]]);
         f->field[VELOCITY_Z][slot[k]] += share[k] * (w[k] - f->field[VELOCITY_Z][slot[k]]);
-        if (!advance->ring) continue;
-        Vec3 place = vec3((double)x[k], (double)y[k], (double)z[k]);
-        hold_before_ring(b, advance, place, dt, f->field + VELOCITY_X, slot[k]);
     }
+    const float *const place[3] = {x, y, z};
+    if (advance->ring) hold_before_ring(b, f, advance, dt, count, place, slot);
 }
 
 static void block_drift(const Backend *b, ParticleSet *f, int begin, int end, float dt)

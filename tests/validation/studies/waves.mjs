@@ -125,7 +125,7 @@ function compareHeadings(simulate) {
       atMost('phase speed less reference over 0.8 m, worst heading', far(speeds) - 1, 0.01, '%'),
     ],
     notes: [`Headings ${HEADINGS.join(', ')} deg: height over asked ${ratios.map((r) => r.toFixed(3)).join(', ')}; ` +
-      `speed over reference ${speeds.map((r) => r.toFixed(3)).join(', ')}; mean of nine gauges, last 4 periods of ${until} s; H/dp 3, no gain.`],
+      `speed over reference ${speeds.map((r) => r.toFixed(3)).join(', ')}; mean of nine gauges, last 4 periods of ${until} s; H/dp ${(wave.H_m / scene.fluid.spacing_m).toFixed(0)}, no gain.`],
     plot: { columns: 1, panels: [{ x: 'heading [deg]', y: 'over asked, over reference', title: 'height and speed', curves: [
       { label: 'height', x: HEADINGS, y: ratios, style: 'points', colour: '#0b5fa5' },
       { label: 'speed', x: HEADINGS, y: speeds, style: 'points', colour: '#c74a2e' }] }] },
