@@ -19,6 +19,9 @@ enum { WORKS_BYTES = 70 };
 /// And where gradients are corrected.
 enum { GRADIENT_BYTES = 25 };
 
+/// Per fluid particle where turbulence keeps a stress; per dummy where walls hold the water.
+enum { STRESS_BYTES = 25, MIRROR_BYTES = 13 };
+
 void effects_name(EffectPlan effects[EFFECT_COUNT])
 {
     static const EffectPlan table[EFFECT_COUNT] = {
@@ -35,7 +38,8 @@ void effects_name(EffectPlan effects[EFFECT_COUNT])
     };
     memcpy(effects, table, sizeof table);
     effects[EFFECT_VISCOSITY].cost = effects[EFFECT_DIFFUSION].cost = COST_SAMPLED;
-    effects[EFFECT_GRADIENT].cost = COST_SAMPLED;
+    effects[EFFECT_GRADIENT].cost = effects[EFFECT_LAMINAR].cost = COST_SAMPLED;
+    effects[EFFECT_TURBULENCE].cost = effects[EFFECT_NO_SLIP].cost = COST_SAMPLED;
     effects[EFFECT_SURFACE].cost = COST_ELSEWHERE;
 }
 
@@ -70,6 +74,14 @@ static void choose_pairs(const Scene *scene, Plan *plan, const Fill *fill)
     bool corrected = fluid->gradient == GRADIENT_CORRECTED;
     set(plan, EFFECT_GRADIENT, water && corrected, GRADIENT_BYTES * (size_t)fill->fluid_count,
         water ? "fluid.gradient = %s" : "no water particles", corrected ? "corrected" : "plain");
+    bool sps = fluid->turbulence == TURBULENCE_SPS, holds = fluid->walls == WALLS_NO_SLIP;
+    int dummies = fill->wall_count + moving;
+    set(plan, EFFECT_LAMINAR, water && fluid->viscosity > 0, 0,
+        water ? "fluid.viscosity_m2s = %g" : "no water particles", fluid->viscosity);
+    set(plan, EFFECT_TURBULENCE, water && sps, STRESS_BYTES * (size_t)fill->fluid_count,
+        water ? "fluid.turbulence = %s" : "no water particles", sps ? "sps" : "none");
+    set(plan, EFFECT_NO_SLIP, water && holds, MIRROR_BYTES * (size_t)dummies,
+        water ? "fluid.walls = %s" : "no water particles", holds ? "no_slip" : "slip");
     set(plan, EFFECT_MOVING_BOUNDARIES, moving > 0, 0,
         moving ? "%d dummies of ring, piston or bodies move" : "nothing but water moves", moving);
     set(plan, EFFECT_WALLS, fill->wall_count > 0, (size_t)FIXED_BYTES * (size_t)fill->wall_count,

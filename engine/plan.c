@@ -13,6 +13,7 @@
 #include "coupling.h"
 #include "effects.h"
 #include "fill.h"
+#include "physics/viscous.h"
 #include "waves.h"
 
 /// c0 dt/h. What was tried of other values is in docs/performance.md.
@@ -65,6 +66,22 @@ static void limit_step(Plan *plan, double limit, const char *why)
     snprintf(plan->time_step_limit, sizeof plan->time_step_limit, "%s", why);
 }
 
+/// Molecular viscosity, beside the artificial one, and that of eddies, which is at most
+/// (C_s dp)^2 times the largest speed over dp. h^2/(8 nu) of Morris, Fox & Zhu (1997),
+/// doi:10.1006/jcph.1997.5776, is for pairs that damp the stiffest mode by 7 nu/h^2; those of
+/// viscous.h damp it by 14 nu/h^2, hence half of it.
+static void limit_laminar_step(const Scene *scene, Plan *plan, double artificial)
+{
+    double h = plan->smoothing_length, nu = scene->fluid.viscosity + artificial;
+    double eddy = SMAGORINSKY * SMAGORINSKY * scene->fluid.spacing * plan->largest_speed;
+    if (scene->fluid.viscosity == 0) return;
+    plan->effects[EFFECT_LAMINAR].step_limit = 0.0625 * h * h / nu;
+    limit_step(plan, plan->effects[EFFECT_LAMINAR].step_limit, "laminar viscosity");
+    if (scene->fluid.turbulence != TURBULENCE_SPS) return;
+    plan->effects[EFFECT_TURBULENCE].step_limit = 0.0625 * h * h / (nu + eddy);
+    limit_step(plan, plan->effects[EFFECT_TURBULENCE].step_limit, "viscosity of eddies");
+}
+
 /// Acoustic, gravity and viscous limits (Monaghan 1992); each effect's own.
 static void choose_time_step(const Scene *scene, Plan *plan)
 {
@@ -78,6 +95,7 @@ static void choose_time_step(const Scene *scene, Plan *plan)
         plan->effects[EFFECT_VISCOSITY].step_limit = 0.125 * h * h / nu;
         limit_step(plan, plan->effects[EFFECT_VISCOSITY].step_limit, "viscosity");
     }
+    limit_laminar_step(scene, plan, nu);
     for (int b = 0; b < scene->body_count; b++) {
         Body body = body_create(&scene->bodies[b], &plan->bodies[b].geometry);
         double limit = body_step_limit(&body, &scene->bodies[b]);
@@ -233,7 +251,10 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
     plan->zone_width = scene->waves.kind == WAVES_NONE ? 0 : waves_zone_width(scene);
     plan->pair_mask = (scene->fluid.alpha > 0 ? PAIR_VISCOSITY : 0) |
                       (scene->fluid.delta > 0 ? PAIR_DIFFUSION : 0) |
-                      (scene->fluid.gradient == GRADIENT_CORRECTED ? PAIR_GRADIENT : 0);
+                      (scene->fluid.gradient == GRADIENT_CORRECTED ? PAIR_GRADIENT : 0) |
+                      (scene->fluid.viscosity > 0 ? PAIR_LAMINAR : 0) |
+                      (scene->fluid.turbulence == TURBULENCE_SPS ? PAIR_TURBULENCE : 0) |
+                      (scene->fluid.walls == WALLS_NO_SLIP ? PAIR_NO_SLIP : 0);
     effects_name(plan->effects);
     TRY(mesh_bodies(scene, plan, error));
     choose_sound_speed(scene, plan);

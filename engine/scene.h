@@ -51,18 +51,24 @@ typedef struct FluidBlock {
 
 typedef enum GradientKind { GRADIENT_PLAIN, GRADIENT_CORRECTED } GradientKind;
 
+typedef enum TurbulenceKind { TURBULENCE_NONE, TURBULENCE_SPS } TurbulenceKind;
+typedef enum WallKind { WALLS_SLIP, WALLS_NO_SLIP } WallKind;
+
 typedef struct Fluid {
-    double spacing;           ///< initial particle distance dp [m], > 0
-    double smoothing_ratio;   ///< h/dp, 1.2 to 3
-    double density;           ///< rest density [kg/m^3]
-    double alpha;             ///< artificial viscosity [-]
-    double delta;             ///< density diffusion [-]
-    GradientKind gradient;    ///< of the kernel, in pressure forces
-    double sound_speed;       ///< c0 [m/s]; 0 = by the rule (see plan.h)
-    double sound_speed_ratio; ///< rule: c0 = ratio * largest expected speed, 7 to 20
-    double gravity;           ///< [m/s^2], downwards
-    double level;             ///< still-water level z [m]
-    int block_count;          ///< 0 = the whole domain is filled up to `level`
+    double spacing;            ///< initial particle distance dp [m], > 0
+    double smoothing_ratio;    ///< h/dp, 1.2 to 3
+    double density;            ///< rest density [kg/m^3]
+    double alpha;              ///< artificial viscosity [-]
+    double delta;              ///< density diffusion [-]
+    GradientKind gradient;     ///< of the kernel, in pressure forces
+    double viscosity;          ///< molecular, kinematic [m^2/s]; 0 = none
+    TurbulenceKind turbulence; ///< stresses of what is not resolved; needs a viscosity
+    WallKind walls;            ///< whether walls and bodies hold the water; needs a viscosity
+    double sound_speed;        ///< c0 [m/s]; 0 = by the rule (see plan.h)
+    double sound_speed_ratio;  ///< rule: c0 = ratio * largest expected speed, 7 to 20
+    double gravity;            ///< [m/s^2], downwards
+    double level;              ///< still-water level z [m]
+    int block_count;           ///< 0 = the whole domain is filled up to `level`
     FluidBlock blocks[SCENE_FLUID_BLOCKS_MAX];
     double standing_height; ///< crest to trough of a standing wave at t = 0 [m]; 0 = none
     int standing_mode;      ///< its half waves in the tank's length

@@ -108,6 +108,25 @@ static bool check_sound_speed(const JsonReader *reader, const Scene *scene)
                                least);
 }
 
+/// What needs molecular viscosity, and what it is not built with.
+static bool check_viscosity(const JsonReader *reader, const Scene *scene)
+{
+    const Fluid *fluid = &scene->fluid;
+    if (fluid->viscosity == 0 && fluid->turbulence == TURBULENCE_SPS)
+        return table_refuse(reader, "fluid.turbulence", NULL,
+                            "\"sps\" goes with molecular viscosity: must be \"none\", or "
+                            "fluid.viscosity_m2s > 0 (water: 1e-6)");
+    if (fluid->viscosity == 0 && fluid->walls == WALLS_NO_SLIP)
+        return table_refuse(reader, "fluid.walls", NULL,
+                            "without viscosity nothing holds the water: must be \"slip\", or "
+                            "fluid.viscosity_m2s > 0 (water: 1e-6)");
+    if (fluid->viscosity > 0 && fluid->gradient == GRADIENT_CORRECTED)
+        return table_refuse(reader, "fluid.gradient", NULL,
+                            "is not built with molecular viscosity: must be \"plain\", or "
+                            "fluid.viscosity_m2s 0");
+    return true;
+}
+
 double case_breaking_height(const Scene *scene, double period)
 {
     double depth = water_depth(scene);
@@ -283,6 +302,7 @@ bool case_check(const JsonReader *reader, const Scene *scene)
     TRY(check_blocks(reader, scene));
     TRY(check_standing_wave(reader, scene));
     TRY(check_sound_speed(reader, scene));
+    TRY(check_viscosity(reader, scene));
     TRY(check_current(reader, scene));
     TRY(check_waves(reader, scene));
     TRY(case_check_bodies(reader, scene));

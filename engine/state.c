@@ -26,6 +26,7 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     s.rest_density = scene->fluid.density;
     s.sound_speed = plan->sound_speed;
     s.alpha = scene->fluid.alpha;
+    s.viscosity = scene->fluid.viscosity;
     s.delta = scene->fluid.delta;
     s.gravity = scene->fluid.gravity;
     s.level = scene->fluid.level;
@@ -183,8 +184,9 @@ static bool place_and_measure(const Scene *scene, const Plan *plan, State *state
         state->bodies[b].fluid_moment = state->loads[b].moment;
     }
     if (scene->energy != ENERGY_NONE) state->energy_start = energy_levels(scene, state);
-    const unsigned bits[] = {PAIR_VISCOSITY, PAIR_DIFFUSION, PAIR_GRADIENT};
-    for (int i = 0; i < 3; i++)
+    const unsigned bits[] = {PAIR_VISCOSITY, PAIR_DIFFUSION,  PAIR_GRADIENT,
+                             PAIR_LAMINAR,   PAIR_TURBULENCE, PAIR_NO_SLIP};
+    for (int i = 0; i < 6; i++)
         if (plan->pair_mask & bits[i])
             state->pair_cost[i] = state->backend->pair_cost(state->particles, bits[i]);
     return true;

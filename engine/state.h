@@ -78,7 +78,8 @@ typedef struct State {
     EnergyLevels energy_start;                   ///< at t = 0, where the case asks for it
     Checkpoint checkpoint;                       ///< the last good state, for roll-back
     double host_seconds[EFFECT_COUNT];           ///< of them, in passes on the host [s]
-    double pair_cost[3]; ///< share of viscosity, diffusion, corrected gradients in their sweeps [-]
+    double pair_cost[6]; ///< shares in their sweeps of artificial viscosity, diffusion, corrected
+                         ///< gradients, laminar viscosity, turbulence, no slip [-]
     Arena arena;
 } State;
 

@@ -196,6 +196,9 @@ static void share_clocks(const Plan *plan, State *state)
     e[EFFECT_VISCOSITY] += c[CLOCK_MOMENTUM] * state->pair_cost[0];
     e[EFFECT_DIFFUSION] += c[CLOCK_DENSITY] * state->pair_cost[1];
     e[EFFECT_GRADIENT] += c[CLOCK_GRADIENT] + c[CLOCK_MOMENTUM] * state->pair_cost[2];
+    e[EFFECT_LAMINAR] += c[CLOCK_MOMENTUM] * state->pair_cost[3];
+    e[EFFECT_TURBULENCE] += c[CLOCK_TURBULENCE] + c[CLOCK_MOMENTUM] * state->pair_cost[4];
+    e[EFFECT_NO_SLIP] += c[CLOCK_NO_SLIP] + c[CLOCK_MOMENTUM] * state->pair_cost[5];
     e[EFFECT_WALLS] += c[CLOCK_EXTRAPOLATE];
     e[EFFECT_MOVING_BOUNDARIES] += c[CLOCK_EXTRAPOLATE_MOVING] + c[CLOCK_DUMMIES];
     e[EFFECT_RING] += c[CLOCK_RING];
@@ -203,8 +206,10 @@ static void share_clocks(const Plan *plan, State *state)
     e[called_for(plan, EFFECT_BEACH) ? EFFECT_BEACH : EFFECT_ZONE] += c[CLOCK_ZONE];
     e[EFFECT_BODIES] += c[CLOCK_LOADS];
     e[EFFECT_ENERGY] += c[CLOCK_WORKS];
-    state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] +
-                          c[CLOCK_MOMENTUM] * (1 - state->pair_cost[0] - state->pair_cost[2]) +
+    double momentum = state->pair_cost[0]; // all but density diffusion's
+    for (int i = 2; i < 6; i++)
+        momentum += state->pair_cost[i];
+    state->base_seconds = c[CLOCK_SORT] + c[CLOCK_INTEGRATE] + c[CLOCK_MOMENTUM] * (1 - momentum) +
                           c[CLOCK_DENSITY] * (1 - state->pair_cost[1]);
 }
 

@@ -21,7 +21,14 @@
 enum { OWNER_FIXED = -3, OWNER_PISTON = -2, OWNER_RING = -1 };
 
 /// Bits of the pair effects in a sweep's mask.
-enum { PAIR_VISCOSITY = 1 << 0, PAIR_DIFFUSION = 1 << 1, PAIR_GRADIENT = 1 << 2 };
+enum {
+    PAIR_VISCOSITY = 1 << 0, ///< artificial
+    PAIR_DIFFUSION = 1 << 1,
+    PAIR_GRADIENT = 1 << 2,   ///< not with the three below
+    PAIR_LAMINAR = 1 << 3,    ///< molecular viscosity
+    PAIR_TURBULENCE = 1 << 4, ///< with PAIR_LAMINAR: stresses of what is not resolved
+    PAIR_NO_SLIP = 1 << 5,    ///< with PAIR_LAMINAR: dummies hold the water
+};
 
 /// Where particles are at t = 0. All arrays are borrowed during create.
 typedef struct ParticleStart {
@@ -43,6 +50,7 @@ typedef struct BackendSetup {
     double barrier_top;                    ///< z of the walls' upper edge [m]
     double spacing, smoothing_length, particle_mass; ///< [m], [m], [kg]
     double rest_density, sound_speed, alpha, delta;
+    double viscosity;      ///< kinematic [m^2/s]
     double gravity, level; ///< [m/s^2], still-water z [m]
     double largest_travel; ///< expected per step, for the skin [m]
     unsigned pair_mask;    ///< PAIR_… bits
@@ -103,8 +111,9 @@ typedef struct FluidEnergy {
 
 /// Energy given to the water since creation, by what gave it [J]; what takes it counts negative.
 typedef struct FluidWorks {
-    double viscosity, diffusion;
-    double ring, piston, bodies; ///< pushes of moving dummies times their velocities
+    double viscosity; ///< of every kind, friction on dummies included
+    double diffusion;
+    double ring, piston, bodies; ///< pressures of moving dummies times their velocities
     double walls;     ///< all else between water and dummies: slip through the extrapolation
     double zone;      ///< relaxation
     double limits;    ///< tension floor and barrier
@@ -118,6 +127,8 @@ typedef enum BackendClock {
     CLOCK_EXTRAPOLATE,        ///< to fixed dummies
     CLOCK_EXTRAPOLATE_MOVING, ///< to moving ones
     CLOCK_GRADIENT,
+    CLOCK_NO_SLIP,    ///< velocities that viscosity meets in dummies
+    CLOCK_TURBULENCE, ///< strain and stress
     CLOCK_MOMENTUM,
     CLOCK_DENSITY,
     CLOCK_LOADS,

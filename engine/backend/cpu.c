@@ -1,5 +1,5 @@
-/// The CPU backend: creation, neighbours, forces. Integration is in cpu_step.c, probes in
-/// cpu_probe.c.
+/// The CPU backend: creation, neighbours, forces. Integration is in cpu_step.c, pair effects in
+/// cpu_pairs.c, probes in cpu_probe.c.
 #include "backend/cpu.h"
 
 #include <math.h>
@@ -71,9 +71,6 @@ static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Er
         moving += start->dummy_owner[i] != OWNER_FIXED;
     int fixed = start->dummy_count - moving;
     TRY(set_create(&b->fluid, &b->grid, start->fluid_count, FLUID_FIELDS, arena, error));
-    if (b->setup.pair_mask & PAIR_DIFFUSION)
-        TRY(b->fluid.dynamic = arena_take(arena, (size_t)b->fluid.slot_capacity, sizeof(float),
-                                          "particles.dynamic", error));
     if (fixed) TRY(set_create(&b->fixed, &b->grid, fixed, 0, arena, error));
     if (moving) TRY(take_moving(b, moving, arena, error));
     int slots = b->fluid.slot_capacity;
@@ -82,9 +79,7 @@ static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Er
     TRY(scratch_create(&b->scratch, &b->grid, slots, b->setup.threads, arena, error));
     for (int a = 0; a < 3; a++)
         b->fluid.rate[a] = (float *)b->scratch.slot[a];
-    for (int t = 0; t < 6 && (b->setup.pair_mask & PAIR_GRADIENT); t++)
-        TRY(b->fluid.correction[t] = arena_take(arena, (size_t)b->fluid.slot_capacity,
-                                                sizeof(float), "particles.correction", error));
+    TRY(pairs_create(b, arena, error));
     TRY(rows_create(&b->rows, &b->grid, arena, error));
     TRY(b->meet = arena_take(arena, (size_t)(b->grid.slab_count + 1) * (size_t)(b->grid.blocks + 2),
                              1, "slabs", error));
@@ -113,6 +108,9 @@ static Sweep make_sweep(Backend *b)
     sweep.constants =
         sweep_constants(s->smoothing_length, s->dimensions, b->grid.unit, s->particle_mass,
                         s->rest_density, s->sound_speed, s->alpha, s->delta);
+    sweep.viscous = viscous_constants(s->smoothing_length, s->dimensions, b->grid.unit,
+                                      s->particle_mass / s->rest_density, s->spacing,
+                                      s->rest_density, s->viscosity);
     sweep.gravity[2] = (float)-s->gravity;
     sweep.tait_b = (float)(s->sound_speed * s->sound_speed * s->rest_density / TAIT_GAMMA);
     sweep.rest_density = (float)s->rest_density;
@@ -320,7 +318,7 @@ static void extrapolate_walls(Backend *b, int set)
 /// Reactions on the dummies of each body, summed in slot order: the same bits for any thread count.
 static void sum_loads(Backend *b, const Vec3 *about, BodyLoad *loads)
 {
-    SweepFunction loads_of = cpu_loads(b);
+    SweepFunction loads_of = cpu_loads(b, b->setup.pair_mask);
     int clusters = b->moving.cluster_count;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(b->setup.threads)
     for (int begin = 0; begin < clusters; begin += 32)
@@ -340,29 +338,6 @@ static void sum_loads(Backend *b, const Vec3 *about, BodyLoad *loads)
     }
 }
 
-SweepFunction cpu_acceleration(const Backend *b, unsigned mask)
-{
-    int viscous = (mask & PAIR_VISCOSITY) != 0, corrected = (mask & PAIR_GRADIENT) != 0;
-    return b->table->acceleration[viscous + 2 * corrected];
-}
-
-SweepFunction cpu_loads(const Backend *b)
-{
-    return b->table->loads[(b->setup.pair_mask & PAIR_GRADIENT) != 0];
-}
-
-/// Corrections of kernel gradients at the present places.
-static void correct_gradients(Backend *b)
-{
-    int clusters = b->fluid.cluster_count;
-    for (int t = 0; t < 6; t++)
-        memset(b->fluid.correction[t], 0, (size_t)clusters * CLUSTER * sizeof(float));
-    cpu_sweep_fluid(b, b->table->moments);
-#pragma omp parallel for schedule(static) num_threads(b->setup.threads)
-    for (int begin = 0; begin < clusters; begin += 64)
-        b->table->invert(&b->sweep, begin, begin + 64 < clusters ? begin + 64 : clusters);
-}
-
 static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *error)
 {
     double start = cpu_clock(), now;
@@ -380,8 +355,16 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
         LAP(CLOCK_EXTRAPOLATE_MOVING);
     }
     if (EFFECTS_BUILT && (b->setup.pair_mask & PAIR_GRADIENT)) {
-        correct_gradients(b);
+        pairs_correct_gradients(b);
         LAP(CLOCK_GRADIENT);
+    }
+    if (EFFECTS_BUILT && (b->setup.pair_mask & PAIR_NO_SLIP)) {
+        pairs_mirror_velocities(b);
+        LAP(CLOCK_NO_SLIP);
+    }
+    if (EFFECTS_BUILT && (b->setup.pair_mask & PAIR_TURBULENCE)) {
+        pairs_find_stresses(b);
+        LAP(CLOCK_TURBULENCE);
     }
     if (EFFECTS_BUILT && b->setup.works) {
         works_before_momentum(b);
@@ -460,25 +443,6 @@ static FluidWorks cpu_works(const Backend *b) { return b->works.sums; }
 
 static const double *cpu_clocks(const Backend *b) { return b->clock; }
 
-/// A sample from the middle will do: the share is the sweep's and the machine's, not the case's.
-static double cpu_pair_cost(Backend *b, unsigned bit)
-{
-    enum { SAMPLE = 2048 }; // clusters
-    int row = b->grid.slab_count / 2 * SLAB_ROWS * b->grid.across_rows;
-    int begin = b->fluid.row_begin[row], rest = b->fluid.cluster_count - begin;
-    int end = begin + (rest < SAMPLE ? rest : SAMPLE);
-    unsigned on = b->setup.pair_mask | bit, off = on & ~bit;
-    SweepFunction sweeps[2] = {cpu_acceleration(b, off), cpu_acceleration(b, on)};
-    if (bit == PAIR_DIFFUSION) memcpy(sweeps, b->table->density, sizeof sweeps);
-    double best[2] = {1e9, 1e9};
-    for (int round = 0; round < 6; round++) {
-        double start = cpu_clock();
-        sweeps[round % 2](&b->sweep, begin, end);
-        best[round % 2] = mind(best[round % 2], cpu_clock() - start);
-    }
-    return best[1] > 0 ? maxd(0, 1 - best[0] / best[1]) : 0;
-}
-
 static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density_rate, Error *error)
 {
     TRY(cpu_neighbours(b, error));
@@ -487,7 +451,9 @@ static bool cpu_probe_rates(Backend *b, float (*acceleration)[3], float *density
     zero_rates(b, 3);
     for (int set = 0; set < 2; set++)
         if (b->sweep.walls[set]->count) extrapolate_walls(b, set);
-    if (b->setup.pair_mask & PAIR_GRADIENT) correct_gradients(b);
+    if (b->setup.pair_mask & PAIR_GRADIENT) pairs_correct_gradients(b);
+    if (b->setup.pair_mask & PAIR_NO_SLIP) pairs_mirror_velocities(b);
+    if (b->setup.pair_mask & PAIR_TURBULENCE) pairs_find_stresses(b);
     cpu_sweep_fluid(b, cpu_acceleration(b, b->setup.pair_mask));
     for (int s = 0; s < slots; s++)
         for (int a = 0; a < 3 && b->fluid.id[s] >= 0; a++)
@@ -532,7 +498,7 @@ const BackendTable *backend_cpu(void)
         .restore = cpu_restore,
         .clocks = cpu_clocks,
         .statistics = cpu_statistics,
-        .pair_cost = cpu_pair_cost,
+        .pair_cost = pairs_cost,
         .probe_rates = cpu_probe_rates,
     };
     return &table;

@@ -97,8 +97,18 @@ void cpu_refresh_boxes(Backend *backend); ///< when particles have moved since
 void cpu_sweep_fluid(Backend *backend, SweepFunction function);
 /// The momentum sweep of these PAIR_… bits.
 SweepFunction cpu_acceleration(const Backend *backend, unsigned mask);
-/// The sum of pushes on moving dummies.
-SweepFunction cpu_loads(const Backend *backend);
+/// The sum of pushes on moving dummies, of these PAIR_… bits.
+SweepFunction cpu_loads(const Backend *backend, unsigned mask);
+/// Arrays of the pair effects.
+bool pairs_create(Backend *backend, Arena *arena, Error *error);
+/// Corrections of kernel gradients at the present places.
+void pairs_correct_gradients(Backend *backend);
+/// Velocities that viscosity meets in all dummies.
+void pairs_mirror_velocities(Backend *backend);
+/// Stresses of what is not resolved, at the present places and velocities.
+void pairs_find_stresses(Backend *backend);
+/// Share of a pair effect's bit in its sweep; see backend.h.
+double pairs_cost(Backend *backend, unsigned bit);
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
 double cpu_elevation(Backend *backend, double x, double y);
 double cpu_pressure(Backend *backend, Vec3 point, Vec3 normal);

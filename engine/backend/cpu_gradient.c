@@ -1,58 +1,8 @@
 /// Momentum with corrected kernel gradients (physics/gradient.h), in sweeps of its own: the plain
 /// ones know nothing of it. First the moments of every particle's neighbours, then their inverses,
 /// then the forces. Compiled once per instruction level (sweep.h).
+#include "backend/terms.h"
 #include "backend/visits.h"
-#include "physics/gradient.h"
-
-/// Matrices of particles, an array a term.
-typedef struct Terms {
-    float *term[GRADIENT_TERMS];
-} Terms;
-
-FN Terms terms_of(const ParticleSet *fluid)
-{
-    Terms t;
-    memcpy(t.term, fluid->correction, sizeof t.term);
-    return t;
-}
-
-FN Symmetric terms_load(const Terms *t, size_t base)
-{
-    Symmetric m = {lanes_load(t->term[0] + base), lanes_load(t->term[1] + base),
-                   lanes_load(t->term[2] + base), lanes_load(t->term[3] + base),
-                   lanes_load(t->term[4] + base), lanes_load(t->term[5] + base)};
-    return m;
-}
-
-FN void terms_store(const Terms *t, size_t base, Symmetric m)
-{
-    lanes_store(t->term[0] + base, m.xx);
-    lanes_store(t->term[1] + base, m.yy);
-    lanes_store(t->term[2] + base, m.zz);
-    lanes_store(t->term[3] + base, m.xy);
-    lanes_store(t->term[4] + base, m.xz);
-    lanes_store(t->term[5] + base, m.yz);
-}
-
-/// One particle's matrix in all lanes.
-FN Symmetric terms_own(const Terms *t, int i)
-{
-    Symmetric m = {lanes_all(t->term[0][i]), lanes_all(t->term[1][i]), lanes_all(t->term[2][i]),
-                   lanes_all(t->term[3][i]), lanes_all(t->term[4][i]), lanes_all(t->term[5][i])};
-    return m;
-}
-
-FN Symmetric no_terms(void)
-{
-    Symmetric m = {lanes_all(0), lanes_all(0), lanes_all(0),
-                   lanes_all(0), lanes_all(0), lanes_all(0)};
-    return m;
-}
-
-FN Symmetric terms_sum(Symmetric a, Symmetric b)
-{
-    return gradient_weigh(lanes_all(1), a, lanes_all(1), b);
-}
 
 /// Moments: one particle and the eight at `base`, which have the same share in each other's.
 FN void visit_moment(const Self *self, const Arrays *other, size_t base, float support,
@@ -84,15 +34,13 @@ FN void moment_of_particle(const Sweep *sweep, const Arrays *fluid, const Terms 
         for (size_t base; visits_next(&visits, &base);)
             visit_moment(&self, &walls, base, support, NULL, &sum);
     }
-    const Lanes total[GRADIENT_TERMS] = {sum.xx, sum.yy, sum.zz, sum.xy, sum.xz, sum.yz};
-    for (int t = 0; t < GRADIENT_TERMS; t++)
-        terms->term[t][i * CLUSTER + l] += lanes_total(total[t]);
+    terms_add_total(terms, i * CLUSTER + l, sum);
 }
 
 void AT_LEVEL(gradient_moments)(const Sweep *sweep, int begin, int end)
 {
     const Arrays fluid = arrays_of(sweep->fluid);
-    const Terms terms = terms_of(sweep->fluid);
+    const Terms terms = terms_of(sweep->fluid->correction);
     for (int i = begin; i < end; i++)
         for (int l = 0; l < CLUSTER; l++)
             if (sweep->fluid->id[i * CLUSTER + l] >= 0)
@@ -101,7 +49,7 @@ void AT_LEVEL(gradient_moments)(const Sweep *sweep, int begin, int end)
 
 void AT_LEVEL(gradient_invert)(const Sweep *sweep, int begin, int end)
 {
-    const Terms terms = terms_of(sweep->fluid);
+    const Terms terms = terms_of(sweep->fluid->correction);
     const GradientLimits limits = gradient_limits(sweep->dimensions);
     const Lanes factor = lanes_all(sweep->moment_factor);
     for (size_t base = (size_t)begin * CLUSTER; base < (size_t)end * CLUSTER; base += CLUSTER) {
@@ -175,7 +123,7 @@ FN void force_of_particle(const Sweep *sweep, const Arrays *fluid, const Terms *
 FN void forces_of_clusters(const Sweep *sweep, int begin, int end, bool viscous)
 {
     const Arrays fluid = arrays_of(sweep->fluid);
-    const Terms terms = terms_of(sweep->fluid);
+    const Terms terms = terms_of(sweep->fluid->correction);
     for (int i = begin; i < end; i++)
         for (int l = 0; l < CLUSTER; l++)
             if (sweep->fluid->id[i * CLUSTER + l] >= 0)
@@ -197,7 +145,7 @@ void AT_LEVEL(gradient_loads)(const Sweep *sweep, int begin, int end)
     ParticleSet *wall = sweep->walls[1];
     const SweepConstants c = sweep->constants;
     const Arrays walls = arrays_of(wall), fluid = arrays_of(sweep->fluid);
-    const Terms terms = terms_of(sweep->fluid);
+    const Terms terms = terms_of(sweep->fluid->correction);
     for (int slot = begin * CLUSTER; slot < end * CLUSTER; slot++) {
         int i = slot / CLUSTER, id = wall->id[slot];
         Lanes sum[3] = {lanes_all(0), lanes_all(0), lanes_all(0)};

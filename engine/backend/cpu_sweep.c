@@ -213,11 +213,15 @@ const SweepTable *AT_LEVEL(sweep_table)(void)
         {acceleration_plain, EFFECTS_BUILT ? acceleration_viscous : NULL,
          EFFECTS_BUILT ? AT_LEVEL(gradient_plain) : NULL,
          EFFECTS_BUILT ? AT_LEVEL(gradient_viscous) : NULL},
+        EFFECTS_BUILT ? AT_LEVEL(viscous_forces) : NULL,
         {density_plain, EFFECTS_BUILT ? density_diffusive : NULL},
         extrapolate,
-        {loads, AT_LEVEL(gradient_loads)},
+        {loads, AT_LEVEL(gradient_loads), AT_LEVEL(viscous_loads)},
         AT_LEVEL(gradient_moments),
         AT_LEVEL(gradient_invert),
+        AT_LEVEL(viscous_mirror),
+        AT_LEVEL(viscous_strain),
+        AT_LEVEL(viscous_stress),
     };
     return &table;
 }

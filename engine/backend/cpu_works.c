@@ -13,6 +13,9 @@
 /// Sums of a sweep with less and less left out.
 enum { INNER, PLAIN, FULL };
 
+/// All that acts by viscosity.
+static const unsigned VISCOUS = PAIR_VISCOSITY | PAIR_LAMINAR | PAIR_TURBULENCE | PAIR_NO_SLIP;
+
 static bool take_floats(float **array, size_t count, Arena *arena, Error *error)
 {
     *array = arena_take(arena, count, sizeof(float), "works", error);
@@ -63,7 +66,7 @@ static void sweep_without(Backend *b, SweepFunction plain, int rates)
 
 void works_before_momentum(Backend *b)
 {
-    sweep_without(b, cpu_acceleration(b, b->setup.pair_mask & ~PAIR_VISCOSITY), 3);
+    sweep_without(b, cpu_acceleration(b, b->setup.pair_mask & ~VISCOUS), 3);
 }
 
 /// Power of the moving dummies' pushes, with their velocities now, by owner [W].
@@ -85,12 +88,12 @@ static MovingPower moving_power(const Backend *b)
     return power;
 }
 
-/// The pushes on all moving dummies, not on bodies only.
+/// The pushes on all moving dummies, not on bodies only; their friction counts to viscosity.
 void works_after_forces(Backend *b)
 {
     const int16_t *owner = b->sweep.moving_owner;
     b->sweep.moving_owner = b->works.anybody;
-    cpu_loads(b)(&b->sweep, 0, b->moving.cluster_count);
+    cpu_loads(b, b->setup.pair_mask & ~VISCOUS)(&b->sweep, 0, b->moving.cluster_count);
     b->sweep.moving_owner = owner;
     b->works.power = moving_power(b);
 }

@@ -58,6 +58,8 @@ typedef struct ParticleSet {
     float *dynamic;           ///< fluid: D = diffusion * (density excess less its hydrostatic part)
     float *rate[3];           ///< sums of the sweeps; fixed: none
     float *correction[6];     ///< fluid, with PAIR_GRADIENT: B of physics/gradient.h
+    float *stress[6];         ///< fluid, with PAIR_TURBULENCE: tau/rho^2 of physics/viscous.h
+    float *mirror[3];         ///< dummies, with PAIR_NO_SLIP: velocity that viscosity meets [m/s]
     int32_t *target[3];       ///< moving: places at the end of the step [unit]
     Boxes boxes;
     int *row_begin; ///< [rows + 1] first cluster of each row

@@ -1,10 +1,11 @@
-/// The neighbour sweeps: loops of physics/pair.h over lists of clusters. cpu_near.c, cpu_sweep.c
-/// and cpu_step.c are compiled once per instruction level; each build exports one SweepTable and
-/// the best one is chosen at start.
+/// The neighbour sweeps: loops of physics/pair.h over lists of clusters. cpu_gradient.c,
+/// cpu_near.c, cpu_step.c, cpu_sweep.c and cpu_viscous.c are compiled once per instruction level;
+/// each build exports one SweepTable and the best one is chosen at start.
 #ifndef FAIRLEAD_BACKEND_SWEEP_H
 #define FAIRLEAD_BACKEND_SWEEP_H
 
 #include "backend/particles.h"
+#include "physics/viscous.h"
 
 typedef struct Sweep {
     ParticleSet *fluid;
@@ -20,10 +21,15 @@ typedef struct Sweep {
     float unit;         ///< [m]
     int dimensions;
     float moment_factor; ///< of M, summed with lengths over 2h: 20 alpha_D V [-]
+    ViscousConstants viscous;
 } Sweep;
 
 /// Of clusters begin..end.
 typedef void (*SweepFunction)(const Sweep *, int begin, int end);
+
+/// Variants of momentum with molecular viscosity: 1 artificial viscosity too, 2 turbulence, 4 walls
+/// that hold the water.
+enum { VISCOUS_VARIANTS = 8 };
 
 struct Backend;
 struct Advance;
@@ -44,19 +50,25 @@ typedef struct SweepTable {
     /// of whose particles, are within the reach [unit^2].
     void (*prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin, int end,
                   float reach_squared, bool exact);
-    /// Acceleration sums of the fluid into fluid->rate, by mask (sweep_mask); adds to the rates of
-    /// clusters in the own and the next slab.
+    /// Acceleration sums of the fluid into fluid->rate, by mask (cpu_acceleration); adds to the
+    /// rates of clusters in the own and the next slab.
     SweepFunction acceleration[4];
+    const SweepFunction *viscous; ///< the same with molecular viscosity [VISCOUS_VARIANTS]
     /// Density sums into fluid->rate[0].
     SweepFunction density[2];
     /// Pressure of dummy clusters begin..end of walls[set] from the fluid around them.
     void (*extrapolate)(const Sweep *, int set, int begin, int end);
-    /// Sums of the fluid's push on the body dummies of walls[1] into their rate: with plain and
-    /// with corrected gradients.
-    SweepFunction loads[2];
+    /// Sums of the fluid's push on the body dummies of walls[1] into their rate: with plain
+    /// gradients, with corrected ones, and with those of viscosity.
+    SweepFunction loads[3];
     /// Moments of the fluid's neighbours into fluid->correction, which was zero, like the
     /// accelerations; and their inverses, cluster by cluster.
     SweepFunction moments, invert;
+    /// Velocities that viscosity meets in clusters begin..end of walls[set].
+    void (*mirror)(const Sweep *, int set, int begin, int end);
+    /// Rates of strain into fluid->stress, which was zero, like the accelerations; and the stresses
+    /// they make, cluster by cluster.
+    SweepFunction strain, stress;
 } SweepTable;
 
 #if defined(__x86_64__)
@@ -83,6 +95,11 @@ void AT_LEVEL(gradient_invert)(const Sweep *, int begin, int end);
 void AT_LEVEL(gradient_plain)(const Sweep *, int begin, int end);
 void AT_LEVEL(gradient_viscous)(const Sweep *, int begin, int end);
 void AT_LEVEL(gradient_loads)(const Sweep *, int begin, int end);
+extern const SweepFunction AT_LEVEL(viscous_forces)[VISCOUS_VARIANTS];
+void AT_LEVEL(viscous_loads)(const Sweep *, int begin, int end);
+void AT_LEVEL(viscous_mirror)(const Sweep *, int set, int begin, int end);
+void AT_LEVEL(viscous_strain)(const Sweep *, int begin, int end);
+void AT_LEVEL(viscous_stress)(const Sweep *, int begin, int end);
 void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
                           int end, float reach_squared, bool exact);
 #endif

@@ -32,8 +32,19 @@ static int sets, lists;
 
 static bool belongs_to_an_effect(const char *what)
 {
-    static const char *const names[] = {"bodies",   "loads",  "poses", "centres",    "lines",
-                                        "slamming", "owners", "works", "references", "waves"};
+    static const char *const names[] = {"bodies",
+                                        "loads",
+                                        "poses",
+                                        "centres",
+                                        "lines",
+                                        "slamming",
+                                        "owners",
+                                        "works",
+                                        "references",
+                                        "waves",
+                                        "particles.correction",
+                                        "particles.stress",
+                                        "particles.mirror"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(what, names[i])) return true;
     return false;
@@ -111,6 +122,9 @@ TEST(still_water_clocks_no_time_for_what_it_leaves_out)
     Run *run = live(&scene);
     const double *clock = run->state->backend->clocks(run->state->particles);
     static const BackendClock others[] = {CLOCK_EXTRAPOLATE_MOVING,
+                                          CLOCK_GRADIENT,
+                                          CLOCK_NO_SLIP,
+                                          CLOCK_TURBULENCE,
                                           CLOCK_LOADS,
                                           CLOCK_DUMMIES,
                                           CLOCK_RING,
