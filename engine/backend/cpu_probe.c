@@ -118,30 +118,61 @@ double cpu_elevation(Backend *b, double x, double y)
     return wet.clumps > 0 ? bed + wet.clumps : NAN;
 }
 
+/// The water particles around a point, one after another.
+typedef struct Near {
+    const Backend *backend;
+    int32_t at[3]; ///< the point
+    int slot;
+    Vec3 from;    ///< the point to the particle [m]
+    float weight; ///< kernel without its constant [-]
+} Near;
+
+static Near near_point(const Backend *b, Vec3 point)
+{
+    return (Near){.backend = b,
+                  .at = {to_coordinate(&b->grid, 0, point.x), to_coordinate(&b->grid, 1, point.y),
+                         to_coordinate(&b->grid, 2, point.z)},
+                  .slot = -1};
+}
+
+static bool cluster_in_reach(const Near *near, int c)
+{
+    const Boxes *boxes = &near->backend->fluid.boxes;
+    double reach = 2 * near->backend->setup.smoothing_length / near->backend->grid.unit;
+    for (int a = 0; a < 3; a++)
+        if (boxes->min[a][c] > near->at[a] + reach || boxes->max[a][c] < near->at[a] - reach)
+            return false;
+    return true;
+}
+
+/// @return whether there is another one
+static bool next_near(Near *near)
+{
+    const Backend *b = near->backend;
+    const ParticleSet *f = &b->fluid;
+    while (++near->slot < f->cluster_count * CLUSTER) {
+        int i = near->slot;
+        if (i % CLUSTER == 0 && !cluster_in_reach(near, i / CLUSTER)) near->slot += CLUSTER - 1;
+        if (near->slot != i || f->id[i] < 0) continue;
+        near->from = vec3(b->grid.unit * (f->position[0][i] - near->at[0]),
+                          b->grid.unit * (f->position[1][i] - near->at[1]),
+                          b->grid.unit * (f->position[2][i] - near->at[2]));
+        float s = (float)(1 - vec3_norm(near->from) / (2 * b->setup.smoothing_length));
+        if (s <= 0) continue;
+        near->weight = kernel_value(s);
+        return true;
+    }
+    return false;
+}
+
 double cpu_pressure(Backend *b, Vec3 point, Vec3 normal)
 {
     cpu_refresh_boxes(b);
-    const ParticleSet *f = &b->fluid;
-    double h = b->setup.smoothing_length, unit = b->grid.unit, reach = 2 * h / unit;
-    int32_t at[3] = {to_coordinate(&b->grid, 0, point.x), to_coordinate(&b->grid, 1, point.y),
-                     to_coordinate(&b->grid, 2, point.z)};
-    double weight = 0, sum = 0;
-    for (int c = 0; c < f->cluster_count; c++) {
-        bool near = true;
-        for (int a = 0; a < 3; a++)
-            near =
-                near && f->boxes.min[a][c] <= at[a] + reach && f->boxes.max[a][c] >= at[a] - reach;
-        if (!near) continue;
-        for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++) {
-            if (f->id[i] < 0) continue;
-            Vec3 d = vec3(unit * (f->position[0][i] - at[0]), unit * (f->position[1][i] - at[1]),
-                          unit * (f->position[2][i] - at[2]));
-            float s = (float)(1 - vec3_norm(d) / (2 * h));
-            if (s <= 0 || vec3_dot(d, normal) < 0) continue;
-            double lift = b->setup.gravity * b->setup.rest_density * d.z;
-            weight += kernel_value(s);
-            sum += kernel_value(s) * (pressure_at(b, i) + lift);
-        }
+    double weight = 0, sum = 0, fall = b->setup.gravity * b->setup.rest_density;
+    for (Near near = near_point(b, point); next_near(&near);) {
+        if (vec3_dot(near.from, normal) < 0) continue;
+        weight += near.weight;
+        sum += near.weight * (pressure_at(b, near.slot) + fall * near.from.z);
     }
     return weight > 0 && sum > 0 ? sum / weight : 0;
 }
@@ -149,30 +180,14 @@ double cpu_pressure(Backend *b, Vec3 point, Vec3 normal)
 void cpu_velocity(Backend *b, Vec3 point, Vec3 *velocity, double *share)
 {
     cpu_refresh_boxes(b);
-    const ParticleSet *f = &b->fluid;
-    double h = b->setup.smoothing_length, unit = b->grid.unit, reach = 2 * h / unit;
-    int32_t at[3] = {to_coordinate(&b->grid, 0, point.x), to_coordinate(&b->grid, 1, point.y),
-                     to_coordinate(&b->grid, 2, point.z)};
     double weight = 0, sum[3] = {0, 0, 0};
-    for (int c = 0; c < f->cluster_count; c++) {
-        bool near = true;
+    for (Near near = near_point(b, point); next_near(&near);) {
+        weight += near.weight;
         for (int a = 0; a < 3; a++)
-            near =
-                near && f->boxes.min[a][c] <= at[a] + reach && f->boxes.max[a][c] >= at[a] - reach;
-        if (!near) continue;
-        for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++) {
-            if (f->id[i] < 0) continue;
-            Vec3 d = vec3(unit * (f->position[0][i] - at[0]), unit * (f->position[1][i] - at[1]),
-                          unit * (f->position[2][i] - at[2]));
-            float s = (float)(1 - vec3_norm(d) / (2 * h));
-            if (s <= 0) continue;
-            weight += kernel_value(s);
-            for (int a = 0; a < 3; a++)
-                sum[a] += kernel_value(s) * f->field[VELOCITY_X + a][i];
-        }
+            sum[a] += near.weight * b->fluid.field[VELOCITY_X + a][near.slot];
     }
     double volume = b->setup.particle_mass / b->setup.rest_density;
-    *share = weight * volume * kernel_constant(h, b->setup.dimensions);
+    *share = weight * volume * kernel_constant(b->setup.smoothing_length, b->setup.dimensions);
     *velocity =
         weight > 0 ? vec3(sum[0] / weight, sum[1] / weight, sum[2] / weight) : vec3(0, 0, 0);
 }
