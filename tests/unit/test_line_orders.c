@@ -89,3 +89,31 @@ TEST(orders_given_since_the_checkpoint_survive_a_roll_back)
     CHECK(run->state->lines[1].parted_count == 1 && run->state->events->count == 1);
     finish(run);
 }
+
+/// What was booked since the checkpoint did not happen; afterwards the sums still agree.
+TEST(a_roll_back_takes_the_ledger_with_it_and_health_tells_when_it_is_false)
+{
+    Run *run = start_lines();
+    int b = 0;
+    while (b < run->scene.body_count && !run->state->ledger->body[b].holds)
+        b++;
+    CHECK(b < run->scene.body_count);
+    advance_to(run, 1.03);
+    run->state->lines[0].position[5].x = NAN;
+    run->state->lines[0].velocity[5].x = NAN;
+    Vec3 then = run->state->checkpoint.ledger->body[b].given.impulse;
+    CHECK(vec3_norm(then) > 0);
+    CHECK(step_advance(&run->scene, &run->plan, run->state, &error));
+    Vec3 now = run->state->ledger->body[b].given.impulse;
+    CHECK(run->state->health.recoveries == 1);
+    CHECK(vec3_norm(vec3_sub(now, then)) == 0);
+    run->state->health.status = HEALTH_GOOD;
+    run->state->health.message[0] = 0;
+    advance_to(run, run->state->time + 1);
+    CHECK(run->state->step > LEDGER_STEPS_LEAST && !run->state->health.message[0]);
+    Vec3 *taken = &run->state->ledger->body[b].taken.impulse;
+    *taken = vec3_scale(*taken, 2);
+    advance_to(run, run->state->time + 0.2);
+    CHECK_CONTAINS(run->state->health.message, "differ on what they exchanged");
+    finish(run);
+}
