@@ -18,7 +18,7 @@ static const double SPLIT_FINEST = 1.0 / 4096;
 /// Share of what the predictor missed that is the step's own error: 2/9 of 2/9 + 5/12.
 static const double PREDICTOR_SHARE = 8.0 / 23;
 /// Local error of a node's place that is allowed, in lengths of the line…
-static const double ERROR_GOAL = 2.5e-5;
+static const double ERROR_GOAL = 1e-5;
 /// …down to this share of the call; below, only what has no solution at all is split.
 static const double ERROR_FINEST = 1.0 / 256;
 /// A step that errs by less than this share of the goal may be followed by a longer one.
