@@ -34,8 +34,8 @@ function compare(simulate) {
     bars: [atLeast('time after the peak inside the 2.5 to 97.5 % band', mean(inside.map(Number)), 0.9, '%'),
       holds('impact, t sqrt(g/H)', arrival.toFixed(3), `measured ${expected.toFixed(3)}, within 5 %`, Math.abs(shift) < 0.05 * expected)],
     notes: [`Running median over ${WINDOW} of t sqrt(g/H), laid upon the measured moment of impact. On the plateau, 3.8 to 5.4, it is ` +
-      `${plateau(time, smooth).toFixed(2)} rho g H, measured ${plateau(t, median).toFixed(2)}: walls slip freely and nothing slows the water along the bed, so that the ` +
-      'stagnation pressure of the whole stream stands in the corner. Water without friction gives as much: by Ritter\'s dry dam break it is 0.85 at 4.5 there.'],
+      `${plateau(time, smooth).toFixed(2)} rho g H, measured ${plateau(t, median).toFixed(2)}. Water without friction gives as much: by Ritter's dry dam break the stagnation pressure ` +
+      'of the stream is 0.85 at 4.5. Friction at the walls, as far as it is modelled, does not change it (top of this page).'],
     plot: { panels: [{ x: 't sqrt(g/H) [-]', y: 'pressure / (rho g H) [-]', xrange: [2.3, 7], yrange: [-0.1, 3], curves: [
       { label: '2.5 to 97.5 % of the measurements', style: 'band', x: t, low, high },
       { label: 'median of the measurements', style: 'dashed', x: t, y: median },
