@@ -113,15 +113,6 @@ static void print_text(const Scene *scene, const Plan *plan, const char *predict
 
 // ---- for programs -------------------------------------------------------------------------------
 
-static void write_point(Json *json, const char *key, Vec3 point)
-{
-    json_array(json, key);
-    json_number(json, NULL, point.x);
-    json_number(json, NULL, point.y);
-    json_number(json, NULL, point.z);
-    json_array_end(json);
-}
-
 static void write_bodies(Json *json, const Scene *scene, const Plan *plan)
 {
     json_array(json, "bodies");
@@ -133,10 +124,10 @@ static void write_bodies(Json *json, const Scene *scene, const Plan *plan)
         json_integer(json, "particles", plan->bodies[i].particle_count);
         json_bool(json, "floats", geometry->floats);
         json_number(json, "mass_kg", geometry->mass);
-        write_point(json, "centre_of_gravity_m", geometry->centre_of_gravity);
+        json_vector(json, "centre_of_gravity_m", geometry->centre_of_gravity);
         json_number(json, "draft_m", h->draft);
         json_number(json, "displacement_m3", h->displacement);
-        write_point(json, "centre_of_buoyancy_m", h->centre_of_buoyancy);
+        json_vector(json, "centre_of_buoyancy_m", h->centre_of_buoyancy);
         json_number(json, "waterplane_area_m2", h->waterplane_area);
         json_number(json, "gm_transverse_m", h->gm_transverse);
         json_number(json, "gm_longitudinal_m", h->gm_longitudinal);

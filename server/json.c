@@ -141,6 +141,15 @@ void json_number(Json *json, const char *key, double value)
         text_append(json->text, "null", 4);
 }
 
+void json_vector(Json *json, const char *key, Vec3 value)
+{
+    json_array(json, key);
+    json_number(json, NULL, value.x);
+    json_number(json, NULL, value.y);
+    json_number(json, NULL, value.z);
+    json_array_end(json);
+}
+
 void json_integer(Json *json, const char *key, int64_t value)
 {
     begin_value(json, key);

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/portable.h"
+
 /// Growing text, always terminated. When memory runs out it stops growing and says so.
 typedef struct Text {
     char *data; ///< owned; NULL while empty
@@ -34,6 +36,8 @@ void json_array_end(Json *json);
 void json_string(Json *json, const char *key, const char *value);
 /// Nine significant digits; numbers that are not finite become null.
 void json_number(Json *json, const char *key, double value);
+/// An array of x, y, z.
+void json_vector(Json *json, const char *key, Vec3 value);
 void json_integer(Json *json, const char *key, int64_t value);
 void json_bool(Json *json, const char *key, bool value);
 void json_null(Json *json, const char *key);

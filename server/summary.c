@@ -35,20 +35,11 @@ static void write_lines(Json *json, const SummaryInfo *info)
     json_array_end(json);
 }
 
-static void write_vector(Json *json, const char *key, Vec3 v)
-{
-    json_array(json, key);
-    json_number(json, NULL, v.x);
-    json_number(json, NULL, v.y);
-    json_number(json, NULL, v.z);
-    json_array_end(json);
-}
-
 static void write_exchange(Json *json, const char *key, const Exchange *sums)
 {
     json_object(json, key);
-    write_vector(json, "impulse_n_s", sums->impulse);
-    write_vector(json, "angular_impulse_n_m_s", sums->angular_impulse);
+    json_vector(json, "impulse_n_s", sums->impulse);
+    json_vector(json, "angular_impulse_n_m_s", sums->angular_impulse);
     json_number(json, "work_j", sums->work);
     json_object_end(json);
 }
