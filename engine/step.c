@@ -109,6 +109,12 @@ static void zone_velocity(const void *context, double time, int count, const flo
     waves_zone_batch(context, time, count, x, y, z, u, v, w);
 }
 
+static double hull_skin(const void *context, int body, Vec3 point)
+{
+    const Plan *plan = context;
+    return distance_grid_sample(&plan->bodies[body].distance, point);
+}
+
 enum { SEA_EVERY = 8 };
 
 static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State *state)
@@ -143,6 +149,8 @@ Advance step_orders(const Scene *scene, const Plan *plan, State *state, double d
     advance.step = state->step;
     advance.dt = dt;
     advance.poses = state->poses;
+    advance.hulls = plan;
+    advance.skin = called_for(plan, EFFECT_BODIES) ? hull_skin : NULL;
     advance.waves = state->waves;
     advance.ring = called_for(plan, EFFECT_RING) ? move_ring : NULL;
     advance.piston = called_for(plan, EFFECT_PISTON) ? piston_move : NULL;

@@ -75,6 +75,9 @@ typedef void (*MovePoints)(const void *context, double time, int count, const Ve
 typedef void (*ZoneVelocity)(const void *context, double time, int count, const float *x,
                              const float *y, const float *z, float *u, float *v, float *w);
 
+/// Distance of a point in a body's geometry axes from its skin [m], negative inside.
+typedef double (*SkinDistance)(const void *context, int body, Vec3 point);
+
 /// A band along lateral sides in which velocities are drawn towards a target.
 typedef struct RelaxationZone {
     double width;      ///< [m]; 0 = none
@@ -89,6 +92,8 @@ typedef struct Advance {
     double time, dt;         ///< at the beginning of the step [s]
     int64_t step;            ///< its number
     const BodyPose *poses;   ///< at the end of the step [body_count]
+    const void *hulls;       ///< context of `skin`
+    SkinDistance skin;       ///< NULL without bodies
     const void *waves;       ///< context of the calls below
     MovePoints ring, piston; ///< NULL when not in the plan
     RelaxationZone zone;

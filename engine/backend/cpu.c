@@ -153,6 +153,7 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     TRY(take_arrays(b, start, arena, error));
     if (setup->works) TRY(works_create(b, arena, error));
     place_particles(b, start);
+    TRY(hulls_create(b, arena, error));
     b->sweep = make_sweep(b);
     b->excess_floor =
         (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);
@@ -255,6 +256,7 @@ bool cpu_neighbours(Backend *b, Error *error)
         cpu_refresh_boxes(b);
         b->sorted = rebuild_lists(b);
         rows_sorted(&b->rows, &b->grid);
+        b->strayed = 0;
         b->sorts++;
         if (!b->sorted) return error_set(error, ERROR_SYSTEM, "memory: neighbour lists do not fit");
     }
@@ -375,6 +377,7 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
     if (EFFECTS_BUILT && b->setup.body_count) {
         memset(loads, 0, (size_t)b->setup.body_count * sizeof *loads);
         sum_loads(b, about, loads);
+        hulls_give(b, about, loads);
         LAP(CLOCK_LOADS);
     }
     if (EFFECTS_BUILT && b->setup.works) {
@@ -409,11 +412,29 @@ static size_t set_transfer(ParticleSet *set, char *to, const char *from)
     return size;
 }
 
+/// What else changes, as set_transfer.
+static size_t rest_transfer(Backend *b, char *to, const char *from)
+{
+    struct {
+        void *data;
+        size_t size;
+    } parts[] = {{&b->first_step, sizeof(bool)},
+                 {b->hulls, (size_t)b->setup.body_count * sizeof(HullHold)},
+                 {&b->works.sums, b->setup.works ? sizeof(FluidWorks) : 0}};
+    size_t size = 0;
+    for (int i = 0; i < 3; i++) {
+        if (to && parts[i].size) memcpy(to + size, parts[i].data, parts[i].size);
+        if (from && parts[i].size) memcpy(parts[i].data, from + size, parts[i].size);
+        size += parts[i].size;
+    }
+    return size;
+}
+
 static size_t cpu_state_size(const Backend *b)
 {
     Backend *own = (Backend *)b;
     return set_transfer(&own->fluid, NULL, NULL) + set_transfer(&own->moving, NULL, NULL) +
-           sizeof(bool) + (b->setup.works ? sizeof(FluidWorks) : 0);
+           rest_transfer(own, NULL, NULL);
 }
 
 static void cpu_save(const Backend *b, void *to)
@@ -421,20 +442,14 @@ static void cpu_save(const Backend *b, void *to)
     Backend *own = (Backend *)b;
     size_t fluid = set_transfer(&own->fluid, to, NULL);
     size_t moving = set_transfer(&own->moving, (char *)to + fluid, NULL);
-    char *rest = (char *)to + fluid + moving;
-    memcpy(rest, &b->first_step, sizeof(bool));
-    if (EFFECTS_BUILT && b->setup.works)
-        memcpy(rest + sizeof(bool), &b->works.sums, sizeof(FluidWorks));
+    rest_transfer(own, (char *)to + fluid + moving, NULL);
 }
 
 static void cpu_restore(Backend *b, const void *from)
 {
     size_t fluid = set_transfer(&b->fluid, NULL, from);
     size_t moving = set_transfer(&b->moving, NULL, (const char *)from + fluid);
-    const char *rest = (const char *)from + fluid + moving;
-    memcpy(&b->first_step, rest, sizeof(bool));
-    if (EFFECTS_BUILT && b->setup.works)
-        memcpy(&b->works.sums, rest + sizeof(bool), sizeof(FluidWorks));
+    rest_transfer(b, NULL, (const char *)from + fluid + moving);
     b->sorted = b->boxes_fresh = false;
     b->table->update_pressure(b);
 }

@@ -60,6 +60,13 @@ typedef struct Works {
     ParticleSet *none;  ///< a set without particles
 } Works;
 
+/// What keeps water out of a body; saved with the state.
+typedef struct HullHold {
+    Vec3 min, max;      ///< of the hull, geometry axes [m]
+    BodyPose pose;      ///< at the end of the last step
+    int64_t impulse[6]; ///< of held water on the body and about the pose's origin, in quanta
+} HullHold;
+
 struct Backend {
     BackendSetup setup;
     Grid grid;
@@ -84,6 +91,8 @@ struct Backend {
     bool first_step;  ///< dummies have no velocity yet
     int64_t sorts;
     double clock[CLOCK_COUNT];
+    HullHold *hulls; ///< [body_count]
+    double strayed;  ///< farthest that water has gone since the sort [m]
     Works works;
 };
 
@@ -116,6 +125,12 @@ void cpu_velocity(Backend *backend, Vec3 point, Vec3 *velocity, double *share);
 void cpu_wetness(Backend *backend, Vec3 from, Vec3 to, int count, double *share);
 void cpu_columns(const Backend *backend, const BodyPose *pose, Vec3 min, Vec3 max,
                  const int count[2], double *volume);
+/// After moving dummies are known.
+bool hulls_create(Backend *backend, Arena *arena, Error *error);
+/// Let water that came behind a skin in this step swim back. `fastest`: largest speed [m/s]
+void hulls_hold(Backend *backend, const Advance *advance, double fastest);
+/// What held water gave the bodies since it was last asked, as loads over the last step.
+void hulls_give(Backend *backend, const Vec3 *about, BodyLoad *loads);
 bool works_create(Backend *backend, Arena *arena, Error *error);
 void works_before_momentum(Backend *backend);
 void works_after_forces(Backend *backend);

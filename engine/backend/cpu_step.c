@@ -287,6 +287,8 @@ void AT_LEVEL(step_place)(Backend *b, const Advance *advance)
     double spent[2] = {0, 0}; // not a part of a step
     for (int begin = 0; begin < b->moving.cluster_count * CLUSTER; begin += BLOCK)
         block_targets(b, advance, begin, block_end(&b->moving, begin), spent);
+    for (int k = 0; k < b->setup.body_count; k++)
+        b->hulls[k].pose = advance->poses[k];
     finish_dummies(b);
     b->sorted = b->boxes_fresh = false;
 }
@@ -467,6 +469,10 @@ void AT_LEVEL(step_advance)(Backend *b, const Advance *advance, ParticleSums *su
     if (EFFECTS_BUILT && b->moving.count) finish_dummies(b);
     rows_move(&b->rows, &b->grid, 0.5 * advance->dt);
     LAP(CLOCK_INTEGRATE);
+    if (EFFECTS_BUILT && advance->skin) {
+        hulls_hold(b, advance, sums->largest_speed);
+        LAP(CLOCK_LOADS);
+    }
     if (EFFECTS_BUILT && b->setup.works) {
         works_after_step(b, advance->dt);
         LAP(CLOCK_WORKS);
