@@ -3,7 +3,7 @@
 ///
 /// A segment joins node i to node i+1; half of its mass, weight and water loads goes to either
 /// node. Source: Hall & Goupee (2015), Ocean Eng. 104, 590, doi:10.1016/j.oceaneng.2015.05.035,
-/// with three changes: internal damping never makes a segment push, the bed never pulls, and loads
+/// with three changes: segments never push, the bed never pulls, and loads
 /// of the water fade smoothly where a segment pierces the surface.
 #ifndef FAIRLEAD_PHYSICS_LINE_H
 #define FAIRLEAD_PHYSICS_LINE_H
@@ -59,29 +59,25 @@ FN void line_add_half(LineConstants *sum, const LineConstants *c, double wet)
     sum->friction_cap += 0.5 * c->friction_cap;
 }
 
-/// Elastic tension and damping tension of a segment [N] of stretched length `s` growing at `rate`.
-/// T = EA max(s/l - 1, 0);  Td = BA s'/l, held within -T..T, so that T + Td is never negative and
-/// continuous where the line goes slack.
+/// Tension of a segment [N] of stretched length `s` that grows at `rate`.
+/// T = max(0, EA max(s/l - 1, 0) + BA s'/l): it never pushes. Damping acts on a slack segment that
+/// lengthens too, so that tension is continuous where it goes taut; without that, slack chain snaps
+/// undamped and its spikes grow as the step falls (docs/mooring.md).
 FN double line_tension(const LineConstants *c, double s, double rate)
 {
     double stretch = s - c->length;
     double elastic = stretch > 0 ? c->stiffness * stretch : 0;
-    double damping = c->damping * rate;
-    damping = damping > elastic ? elastic : damping;
-    damping = damping < -elastic ? -elastic : damping;
-    return elastic + damping;
+    double sum = elastic + c->damping * rate;
+    return sum > 0 ? sum : 0;
 }
 
 /// d line_tension / ds when the rate changes with s by `rate_slope` [1/s] (implicit steps) [N/m].
 FN double line_tension_slope(const LineConstants *c, double s, double rate, double rate_slope)
 {
     double stretch = s - c->length;
-    double elastic = c->stiffness * stretch;
-    double damping = c->damping * rate;
-    double slope = c->stiffness + c->damping * rate_slope;
-    slope = damping > elastic ? 2 * c->stiffness : slope;
-    slope = damping < -elastic ? 0 : slope;
-    return stretch > 0 ? slope : 0;
+    double elastic = stretch > 0 ? c->stiffness * stretch : 0;
+    double slope = (stretch > 0 ? c->stiffness : 0) + c->damping * rate_slope;
+    return elastic + c->damping * rate > 0 ? slope : 0;
 }
 
 /// Integral over depth of the wetted share of a horizontal cylinder, taken linear over its
