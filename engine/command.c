@@ -46,6 +46,10 @@ bool command_check(const Scene *scene, const Command *command, const WaveTarget 
     if (waves->kind == WAVES_NONE)
         return error_set(error, ERROR_INPUT,
                          "wave: this case has no waves to change: waves.kind is \"none\"");
+    if (waves->kind == WAVES_RECORD)
+        return error_set(error, ERROR_INPUT,
+                         "wave: the piston of this case follows a record (waves.piston_motion): "
+                         "its waves cannot be changed");
     WaveTarget sea;
     TRY(choose("wave.height_m", command->wave_height, last->height, waves->height_limits, 1, "m",
                &sea.height, error));

@@ -102,7 +102,15 @@ static void choose_waves(const Scene *scene, Plan *plan, const Fill *fill)
     set(plan, EFFECT_ZONE, basin, 0, basin ? "waves in a basin: %.3g m wide" : off,
         plan->zone_width);
     set(plan, EFFECT_PISTON, flume, (size_t)MOVING_BYTES * (size_t)fill->piston_count,
-        flume ? "waves in a flume: %d moving dummies" : off, fill->piston_count);
+        flume ? "waves in a flume: %d moving dummies, travel within %.3g m" : off,
+        fill->piston_count, plan->wall_reach);
+    if (plan->piston) {
+        const MotionTable *record = plan->piston;
+        set(plan, EFFECT_PISTON, flume, (size_t)MOVING_BYTES * (size_t)fill->piston_count,
+            "waves.piston_motion: %d dummies follow %d rows from %.4g to %.4g s, within %.3g m",
+            fill->piston_count, record->count, record->time[0], record->time[record->count - 1],
+            record->reach);
+    }
     set(plan, EFFECT_BEACH, flume, 0, flume ? "waves in a flume: %.3g m long" : off,
         plan->zone_width);
 }

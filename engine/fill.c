@@ -241,8 +241,7 @@ static void fill_walls(const Scene *scene, const Plan *plan, Fill *fill)
     // Ring and piston slide along the fixed walls, which go on as far: a hole behind the corner
     // would draw the water in.
     bool flume = scene->domain.kind == DOMAIN_FLUME;
-    double reach = scene->waves.kind == WAVES_NONE ? 0 : waves_wall_reach(scene);
-    int apron = (int)ceil(reach / scene->fluid.spacing - 1e-6);
+    int apron = (int)ceil(plan->wall_reach / scene->fluid.spacing - 1e-6);
     int left = n + apron, right = flume ? n : left;
     if (ny && !flume) ny += apron;
     for (int i = -left; i < l.count[0] + right; i++)

@@ -252,7 +252,7 @@ bool body_geometry_create(const Scene *scene, int index, Arena *arena, BodyGeome
     g.floats = g.hydrostatics.draft > 0;
     if (setting.body->motion_path[0]) {
         MotionTable *motion;
-        TRY(motion_load(setting.body->motion_path, arena, &motion, error));
+        TRY(motion_load(setting.body->motion_path, MOTION_OF_BODY, arena, &motion, error));
         g.motion = motion;
     }
     *geometry = g;

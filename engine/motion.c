@@ -10,13 +10,26 @@
 
 enum { ROW_SIZE = 1024, COLUMNS_MAX = 7, ROWS_MAX = 1000000 };
 
-static const char *const column_names[COLUMNS_MAX] = {"t_s",      "surge_m",   "sway_m", "heave_m",
-                                                      "roll_deg", "pitch_deg", "yaw_deg"};
+/// Names by place in a row; the first `needed` of them must be there.
+typedef struct Columns {
+    const char *names[COLUMNS_MAX];
+    int count, needed;
+    const char *list; ///< for messages
+} Columns;
+
+static const Columns columns_of[] = {
+    [MOTION_OF_BODY] = {{"t_s", "surge_m", "sway_m", "heave_m", "roll_deg", "pitch_deg", "yaw_deg"},
+                        7,
+                        1,
+                        "t_s, surge_m, sway_m, heave_m, roll_deg, pitch_deg, yaw_deg"},
+    [MOTION_OF_PISTON] = {{"t_s", "x_m"}, 2, 2, "t_s, x_m"},
+};
 
 typedef struct Reader {
     const char *path;
+    const Columns *known;
     int row;                  ///< line of the file
-    int columns[COLUMNS_MAX]; ///< index into column_names of each column
+    int columns[COLUMNS_MAX]; ///< index into the known names of each column
     int column_count;         ///< 0 before the names
     double (*rows)[COLUMNS_MAX];
     int count, room;
@@ -28,18 +41,20 @@ static bool read_names(Reader *r, char *text)
     bool seen[COLUMNS_MAX] = {false};
     for (char *rest = text, *word; (word = strtok_r(rest, ", \t\r\n", &rest));) {
         int at = -1;
-        for (int i = 0; i < COLUMNS_MAX; i++)
-            if (!strcmp(word, column_names[i])) at = i;
+        for (int i = 0; i < r->known->count; i++)
+            if (!strcmp(word, r->known->names[i])) at = i;
         if (at < 0 || seen[at])
             return error_set(r->error, ERROR_INPUT,
-                             "%.300s line %d: column %.40s: must be one of t_s, surge_m, sway_m, "
-                             "heave_m, roll_deg, pitch_deg, yaw_deg, each once",
-                             r->path, r->row, word);
+                             "%.300s line %d: column %.40s: must be one of %s, each once", r->path,
+                             r->row, word, r->known->list);
         seen[at] = true;
         r->columns[r->column_count++] = at;
     }
-    return seen[0] || error_set(r->error, ERROR_INPUT, "%.300s line %d: column t_s is missing",
-                                r->path, r->row);
+    for (int i = 0; i < r->known->needed; i++)
+        if (!seen[i])
+            return error_set(r->error, ERROR_INPUT, "%.300s line %d: column %s is missing", r->path,
+                             r->row, r->known->names[i]);
+    return true;
 }
 
 static bool read_numbers(Reader *r, char *text)
@@ -106,6 +121,32 @@ static void bend(MotionTable *table, int column, double *work)
         table->bend[i][column] = table->bend[i][column] * table->bend[i + 1][column] + work[i];
 }
 
+static double surge_at(const MotionTable *table, double time)
+{
+    double value[6] = {0}, rate[6] = {0};
+    motion_add(table, time, value, rate);
+    return fabs(value[0]);
+}
+
+/// Largest |surge| from row i to the next: at the ends or where the cubic's rate, A b^2 + B b + C
+/// over the share b of the gap, is zero.
+static double reach_between(const MotionTable *table, int i)
+{
+    double gap = table->time[i + 1] - table->time[i];
+    double left = table->bend[i][0], right = table->bend[i + 1][0];
+    double A = gap / 2 * (right - left), B = gap * left;
+    double C = (table->value[i + 1][0] - table->value[i][0]) / gap - gap / 6 * (right + 2 * left);
+    double most = maxd(fabs(table->value[i][0]), fabs(table->value[i + 1][0]));
+    if (B * B < 4 * A * C) return most;
+    // both roots without cancellation (Press et al., Numerical Recipes, 5.6)
+    double q = -0.5 * (B + (B < 0 ? -1 : 1) * sqrt(B * B - 4 * A * C));
+    double roots[2] = {A != 0 ? q / A : -1, q != 0 ? C / q : -1};
+    for (int n = 0; n < 2; n++)
+        if (roots[n] > 0 && roots[n] < 1)
+            most = maxd(most, surge_at(table, table->time[i] + roots[n] * gap));
+    return most;
+}
+
 static bool fill_table(const Reader *r, Arena *arena, MotionTable *table, Error *error)
 {
     size_t n = (size_t)r->count;
@@ -125,6 +166,7 @@ static bool fill_table(const Reader *r, Arena *arena, MotionTable *table, Error 
         bend(table, column, work);
     for (int i = 0; i + 1 < r->count; i++) {
         double value[6] = {0}, rate[6] = {0};
+        table->reach = maxd(table->reach, reach_between(table, i));
         motion_add(table, table->time[i], value, rate);
         table->largest_speed =
             maxd(table->largest_speed, vec3_norm(vec3(rate[0], rate[1], rate[2])));
@@ -132,12 +174,12 @@ static bool fill_table(const Reader *r, Arena *arena, MotionTable *table, Error 
     return true;
 }
 
-bool motion_load(const char *path, Arena *arena, MotionTable **table, Error *error)
+bool motion_load(const char *path, MotionOf who, Arena *arena, MotionTable **table, Error *error)
 {
     FILE *file = fopen(path, "r");
     if (!file)
         return error_set(error, ERROR_INPUT, "%.300s: cannot read: %s", path, strerror(errno));
-    Reader reader = {.path = path, .error = error};
+    Reader reader = {.path = path, .known = &columns_of[who], .error = error};
     bool good = read_rows(&reader, file);
     fclose(file);
     *table = good ? arena_take(arena, 1, sizeof **table, "motion", error) : NULL;

@@ -4,6 +4,36 @@
 
 #include "sea.h"
 
+/// (chosen) Water at rest begins half a spacing before the mean place: what the piston may stand
+/// off it, in spacings.
+static const double START = 0.1;
+/// (chosen) Travel, in lengths of the flume; beyond it a record has a slip of units.
+static const double TRAVEL = 0.5;
+
+bool piston_load(const Scene *scene, Arena *arena, const MotionTable **table, Error *error)
+{
+    const Waves *waves = &scene->waves;
+    *table = NULL;
+    if (waves->kind != WAVES_RECORD) return true;
+    MotionTable *record;
+    TRY(motion_load(waves->piston_path, MOTION_OF_PISTON, arena, &record, error));
+    double most = TRAVEL * (scene->domain.max.x - scene->domain.min.x);
+    if (record->reach > most)
+        return error_set(error, ERROR_INPUT,
+                         "%.300s: x_m reaches %.4g m from the mean place: must stay within %.4g m "
+                         "(half of the flume)",
+                         waves->piston_path, record->reach, most);
+    double start[6] = {0}, rate[6] = {0};
+    motion_add(record, 0, start, rate);
+    if (fabs(start[0]) > START * scene->fluid.spacing)
+        return error_set(error, ERROR_INPUT,
+                         "%.300s: x_m = %.4g at t_s = 0: must be within %.4g m of 0, the mean "
+                         "place where water at rest begins (a tenth of fluid.spacing_m)",
+                         waves->piston_path, start[0], START * scene->fluid.spacing);
+    *table = record;
+    return true;
+}
+
 double piston_stroke_ratio(double kd)
 {
     // for large kd the ratio of the exponentials
@@ -46,6 +76,11 @@ static double sea_stroke(const Sea *sea, const SeaLayer *layer, double x, double
 
 double piston_displacement(const WaveState *waves, double time)
 {
+    if (waves->record) {
+        double value[6] = {0}, rate[6] = {0};
+        motion_add(waves->record, time, value, rate);
+        return value[0];
+    }
     double displacement = 0;
     WaveStep weights[WAVE_LAYERS_MAX];
     waves_layer_weights(waves, time, weights);

@@ -3,7 +3,13 @@
 #define FAIRLEAD_PISTON_H
 
 #include "base/portable.h"
+#include "motion.h"
 #include "waves.h"
+
+/// The record that the piston follows, read and judged.
+/// @param table  NULL where the scene has none
+/// @return false with ERROR_INPUT naming the file, and its line where one is bad
+bool piston_load(const Scene *scene, Arena *arena, const MotionTable **table, Error *error);
 
 /// Where the paddle is, from its mean place [m].
 double piston_displacement(const WaveState *waves, double time);

@@ -14,6 +14,7 @@
 #include "effects.h"
 #include "fill.h"
 #include "physics/viscous.h"
+#include "piston.h"
 #include "waves.h"
 
 /// c0 dt/h. What was tried of other values is in docs/performance.md.
@@ -46,6 +47,10 @@ static void choose_sound_speed(const Scene *scene, Plan *plan)
         if (!motion || motion->largest_speed <= speed) continue;
         speed = motion->largest_speed;
         what = "speed of a body";
+    }
+    if (plan->piston && plan->piston->largest_speed > speed) {
+        speed = plan->piston->largest_speed;
+        what = "speed of the piston";
     }
     plan->largest_speed = speed;
     plan->sound_speed = fluid->sound_speed_ratio * speed;
@@ -256,6 +261,8 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
                       (scene->fluid.turbulence == TURBULENCE_SPS ? PAIR_TURBULENCE : 0) |
                       (scene->fluid.walls == WALLS_NO_SLIP ? PAIR_NO_SLIP : 0);
     effects_name(plan->effects);
+    TRY(piston_load(scene, &plan->arena, &plan->piston, error));
+    plan->wall_reach = plan->piston ? plan->piston->reach : waves_wall_reach(scene);
     TRY(mesh_bodies(scene, plan, error));
     choose_sound_speed(scene, plan);
     TRY(hang_lines(scene, plan, error));

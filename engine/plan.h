@@ -73,10 +73,12 @@ typedef struct Plan {
     double particle_mass;    ///< [kg], 2-D per metre
     double sound_speed;      ///< c0 [m/s]
     char sound_speed_because[160];
-    double largest_speed;     ///< expected, chose the sound speed [m/s]
-    double time_step;         ///< [s]
-    char time_step_limit[64]; ///< which limit binds
-    double zone_width;        ///< [m], 0 without
+    double largest_speed;      ///< expected, chose the sound speed [m/s]
+    double time_step;          ///< [s]
+    char time_step_limit[64];  ///< which limit binds
+    double zone_width;         ///< [m], 0 without
+    double wall_reach;         ///< most that ring or piston may move sideways [m], 0 without
+    const MotionTable *piston; ///< record that the piston follows; NULL without
     int fluid_count, wall_count, body_particle_count;
     BodyPlan *bodies;          ///< [scene->body_count]
     LinePlan *lines;           ///< [scene->line_count]

@@ -79,6 +79,7 @@ typedef enum WaveKind {
     WAVES_REGULAR,
     WAVES_IRREGULAR, ///< height is the significant one, period the peak's
     WAVES_FOCUSED,   ///< a group: height is twice its crest at the focus, period the peak's
+    WAVES_RECORD,    ///< flume: the piston follows a table; height and period of the largest wave
 } WaveKind;
 /// How a regular wave is described (steady_wave.h).
 typedef enum WaveTheory {
@@ -139,7 +140,8 @@ typedef struct Waves {
     Focus focus;       ///< focused
     WaveGain gain;
     Current current;
-    int piston_order; ///< flume: 1, or 2 with the piston's own second harmonic
+    int piston_order;                  ///< flume: 1, or 2 with the piston's own second harmonic
+    char piston_path[SCENE_PATH_SIZE]; ///< record: the table, resolved against the case's folder
     WaveTarget initial;
     WaveStart start;
     double ramp_time;     ///< time to grow from rest [s] (ramp start)

@@ -42,6 +42,15 @@ bool case_finish_body(const JsonReader *reader, const JsonValue *object, const c
 bool case_finish_line(const JsonReader *reader, const JsonValue *object, const char *where,
                       void *target);
 
+/// What goes with waves of a record, and where its table is (scene_load.c).
+bool case_finish_waves(const JsonReader *reader, const JsonValue *object, const char *where,
+                       void *target);
+
+/// A relative path starts at the case's folder, wherever the program is called.
+/// @param where, key  place in the case, for messages   @param path  as the case says it, changed
+bool case_resolve_path(const JsonReader *reader, const JsonValue *object, const char *where,
+                       const char *key, char path[SCENE_PATH_SIZE]);
+
 /// Add the lines and points of the case's MoorDyn file, and its water where the case does not say
 /// (scene_moordyn.c). @param root  the case's tree
 bool case_join_moordyn(const JsonReader *reader, const JsonValue *root, CaseFile *draft);

@@ -205,7 +205,7 @@ static bool check_spectrum(const JsonReader *reader, const Scene *scene)
     const Waves *waves = &scene->waves;
     const Domain *domain = &scene->domain;
     bool plane = domain->dimensions == 2 || domain->kind == DOMAIN_FLUME;
-    if (waves->kind == WAVES_REGULAR) return true;
+    if (waves->kind == WAVES_REGULAR || waves->kind == WAVES_RECORD) return true;
     if (plane && waves->spectrum.spreading > 0)
         return table_refuse_number(reader, "waves.spectrum.spreading", waves->spectrum.spreading,
                                    "must be 0 (long-crested) in 2-D and in a flume");
@@ -233,6 +233,9 @@ static bool check_waves(const JsonReader *reader, const Scene *scene)
         return table_refuse(reader, "waves.kind", NULL,
                             "a tank has walls all round: must be \"none\", or domain.kind must be "
                             "\"basin\" or \"flume\"");
+    if (waves->kind == WAVES_RECORD && domain->kind != DOMAIN_FLUME)
+        return table_refuse(reader, "waves.kind", NULL,
+                            "\"record\" moves a piston: domain.kind must be \"flume\"");
     TRY(check_heading(reader, scene));
     TRY(check_limit(reader, "waves.height_m", waves->height_limits, waves->initial.height, 1, "m"));
     TRY(check_limit(reader, "waves.period_s", waves->period_limits, waves->initial.period, 1, "s"));

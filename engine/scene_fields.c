@@ -97,7 +97,7 @@ static const JsonTable CURRENT_TABLE = {CURRENT_FIELDS, COUNT(CURRENT_FIELDS), N
 
 static const JsonField WAVE_FIELDS[] = {
     {"kind", FIELD_CHOICE, true, IN_CASE(scene.waves.kind),
-     .choices = {"none", "regular", "irregular", "focused"}},
+     .choices = {"none", "regular", "irregular", "focused", "record"}},
     {"theory", FIELD_CHOICE, IN_CASE(scene.waves.theory),
      .choices = {"auto", "airy", "stokes2", "stokes5", "stream"}},
     {"height_m", FIELD_NUMBER, IN_CASE(scene.waves.initial.height), WAVE_HEIGHT},
@@ -112,9 +112,10 @@ static const JsonField WAVE_FIELDS[] = {
     {"current", FIELD_OBJECT, .table = &CURRENT_TABLE},
     {"gain", FIELD_OBJECT, .table = &GAIN_TABLE},
     {"piston_order", FIELD_INTEGER, IN_CASE(scene.waves.piston_order), .min = 1, .max = 2},
+    {"piston_motion", FIELD_TEXT, IN_CASE(scene.waves.piston_path), .count_max = SCENE_PATH_SIZE},
     {"limits", FIELD_OBJECT, .table = &LIMIT_TABLE},
 };
-static const JsonTable WAVE_TABLE = {WAVE_FIELDS, COUNT(WAVE_FIELDS), NULL};
+static const JsonTable WAVE_TABLE = {WAVE_FIELDS, COUNT(WAVE_FIELDS), case_finish_waves};
 
 static const JsonField GAUGE_FIELDS[] = {
     {"name", FIELD_NAME, true, .offset = offsetof(GaugeScene, name), .count_max = SCENE_NAME_SIZE},

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene_case.h"
+#include "scene_tree.h"
 
 /// A ring must rise above the largest wave (docs/physics.md: >= H; without it particles leak).
 static const double BASIN_FREEBOARD_RATIO = 1.3;
@@ -26,7 +27,36 @@ static void resolve_limits(const Domain *domain, Waves *waves)
         waves->heading_limits.max = negative ? PI : 2 * PI;
         if (domain->kind == DOMAIN_FLUME) waves->heading_limits.min = waves->heading_limits.max = 0;
     }
+    if (waves->kind == WAVES_RECORD) waves->ramp_time = 0; // it begins as it was recorded
     if (isnan(waves->ramp_time)) waves->ramp_time = RAMP_PERIODS * waves->initial.period;
+}
+
+bool case_finish_waves(const JsonReader *reader, const JsonValue *object, const char *where,
+                       void *target)
+{
+    static const char *const others[] = {"theory", "start", "ramp_s", "blend_periods", "spectrum",
+                                         "focus",  "gain",  "limits", "piston_order"};
+    Waves *waves = &((CaseFile *)target)->scene.waves;
+    char at[JSON_PATH_SIZE];
+    const JsonValue *table = tree_member(object, "piston_motion");
+    snprintf(at, sizeof at, "%.120s.piston_motion", where);
+    if (waves->kind == WAVES_NONE) return true;
+    if (waves->kind != WAVES_RECORD)
+        return !table || table_refuse(reader, at, table,
+                                      "must only be given where waves.kind is "
+                                      "\"record\"");
+    if (!table)
+        return table_refuse(reader, at, NULL,
+                            "is missing: must be a table of t_s and x_m where "
+                            "waves.kind is \"record\"");
+    TRY(case_resolve_path(reader, object, where, "piston_motion", waves->piston_path));
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        snprintf(at, sizeof at, "%.120s.%s", where, others[i]);
+        if (tree_member(object, others[i]))
+            return table_refuse(reader, at, tree_member(object, others[i]),
+                                "must not be given: the piston follows its record as it is");
+    }
+    return true;
 }
 
 static bool resolve_waves(const JsonReader *reader, CaseFile *draft)

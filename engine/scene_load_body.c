@@ -139,9 +139,8 @@ static bool check_motion(const JsonReader *reader, const JsonValue *object, cons
     return true;
 }
 
-/// A relative path starts at the case's folder, wherever the program is called.
-static bool resolve_path(const JsonReader *reader, const JsonValue *object, const char *where,
-                         const char *key, char path[SCENE_PATH_SIZE])
+bool case_resolve_path(const JsonReader *reader, const JsonValue *object, const char *where,
+                       const char *key, char path[SCENE_PATH_SIZE])
 {
     const char *slash = strrchr(reader->file, '/');
     char given[SCENE_PATH_SIZE];
@@ -167,7 +166,7 @@ static bool take_motion(const JsonReader *reader, const JsonValue *object, const
         body->freedoms[i].kind = FREEDOM_PRESCRIBED;
         body->freedoms[i].period = INFINITY;
     }
-    return resolve_path(reader, object, where, "motion", body->motion_path);
+    return case_resolve_path(reader, object, where, "motion", body->motion_path);
 }
 
 bool case_finish_body(const JsonReader *reader, const JsonValue *object, const char *where,
@@ -182,5 +181,5 @@ bool case_finish_body(const JsonReader *reader, const JsonValue *object, const c
     TRY(check_motion(reader, object, where, body));
     TRY(check_placement(reader, object, where, body));
     TRY(check_inertia(reader, object, where, body));
-    return resolve_path(reader, object, where, "mesh", body->mesh_path);
+    return case_resolve_path(reader, object, where, "mesh", body->mesh_path);
 }

@@ -38,7 +38,7 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     const double high[3] = {d->max.x, d->max.y, INFINITY};
     bool waves = scene->waves.kind != WAVES_NONE;
     bool ring = waves && d->kind == DOMAIN_BASIN, piston = waves && d->kind == DOMAIN_FLUME;
-    const double wall_reach = waves ? waves_wall_reach(scene) : 0;
+    const double wall_reach = plan->wall_reach;
     for (int a = 0; a < 3; a++) {
         bool any = a == 1 && d->dimensions == 2;
         double reach = a < 2 ? wall_reach : 0; // water rides with ring and piston
@@ -98,12 +98,13 @@ static bool create_particles(const Scene *scene, const Plan *plan, State *state,
     return good;
 }
 
-static bool create_waves(const Scene *scene, State *state, Error *error)
+static bool create_waves(const Scene *scene, const Plan *plan, State *state, Error *error)
 {
     if (scene->waves.kind == WAVES_NONE) return true;
     TRY(state->waves = arena_take(&state->arena, 1, sizeof(WaveState), "waves", error));
     TRY(state->checkpoint.waves = arena_take(&state->arena, 1, sizeof(WaveState), "waves", error));
     *state->waves = waves_create(scene);
+    state->waves->record = plan->piston;
     if (wave_quality_asked(scene)) {
         size_t size = sizeof(WaveQuality);
         TRY(state->quality = arena_take(&state->arena, 1, size, "wave quality", error));
@@ -199,7 +200,7 @@ bool state_create(const Scene *scene, const Plan *plan, State **result, Error *e
     if (!state) return false;
     state->arena = arena;
     state->time_step = state->smallest_step = state->largest_step = plan->time_step;
-    if (create_waves(scene, state, error) && create_particles(scene, plan, state, error) &&
+    if (create_waves(scene, plan, state, error) && create_particles(scene, plan, state, error) &&
         create_bodies_and_lines(scene, plan, state, error) &&
         create_checkpoint(scene, state, error) && place_and_measure(scene, plan, state, error)) {
         *result = state;

@@ -118,6 +118,8 @@ WaveState waves_create(const Scene *scene)
     base->gain = waves.gain;
     base->train = train_create(scene, &waves.asked, waves.gain);
     waves.layer_count = 1;
+    // what a record makes is not known here; period and length still are
+    if (scene->waves.kind == WAVES_RECORD) base->train = train_at_rest(&base->train);
     if (scene->waves.start == WAVE_START_RAMP && scene->waves.ramp_time > 0) {
         waves.layers[1] = *base;
         waves.layers[1].duration = scene->waves.ramp_time;

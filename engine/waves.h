@@ -39,6 +39,7 @@ typedef struct WaveInterior {
 } WaveInterior;
 
 struct Sea;
+struct MotionTable;
 
 /// Everything about the waves that changes; plain data, copied by checkpoints (of a sea this holds
 /// what its layers are; their components follow from it: waves_refresh).
@@ -63,7 +64,8 @@ typedef struct WaveState {
     WaveInterior interior;
     double gain; ///< of new layers
     int piston_order;
-    struct Sea *sea; ///< components; NULL for regular waves; borrowed
+    struct Sea *sea;                  ///< components; NULL for regular waves; borrowed
+    const struct MotionTable *record; ///< what the piston follows instead; NULL without; borrowed
 } WaveState;
 
 /// k of omega^2 = g k tanh(k d) [1/m] (Airy); relative error below 1e-12.
@@ -137,7 +139,7 @@ double waves_current_along(const Scene *scene, double heading);
 double waves_zone_width(const Scene *scene);
 
 /// Most that the ring's columns or the piston may move sideways in waves that may be set [m]; 0
-/// without either.
+/// without either. Of a piston that follows a record its table tells (Plan.wall_reach has both).
 double waves_wall_reach(const Scene *scene);
 
 /// Warnings a user should read: beyond breaking (Miche), too coarse (H/dp < 5), basin too small.

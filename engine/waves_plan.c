@@ -94,6 +94,13 @@ int waves_warnings(const Scene *scene, char *text, int size)
                  ursell);
         warn(text, size, &count, line);
     }
+    bool still = false;
+    for (int l = 0; l < scene->line_count; l++)
+        still = still || scene->lines[l].water == LINE_WATER_INCIDENT;
+    if (scene->waves.kind == WAVES_RECORD && still)
+        warn(text, size, &count,
+             "lines whose water is \"incident\" feel none: what a record makes is only known from "
+             "the simulated water (\"sph\")");
     if (scene->domain.kind != DOMAIN_BASIN) return count;
     const Domain *domain = &scene->domain;
     double inside = domain->max.x - domain->min.x;
@@ -111,13 +118,20 @@ int waves_warnings(const Scene *scene, char *text, int size)
 void waves_tell(const Scene *scene, char *text, int size)
 {
     static const char *const kinds[] = {"none", "regular, height", "irregular, significant height",
-                                        "focused, twice the crest"};
+                                        "focused, twice the crest",
+                                        "piston follows a record; largest wave expected"};
     static const char *const theories[] = {"", "Airy", "Stokes 2", "Stokes 5", "stream function"};
     const WaveTarget *sea = &scene->waves.initial;
     int used =
         snprintf(text, (size_t)size, "%s %.4g m, period %.4g s, heading %.4g deg",
                  kinds[scene->waves.kind], sea->height, sea->period, sea->heading * 180 / PI);
     if (used < 0 || used >= size) return;
+    if (scene->waves.kind == WAVES_RECORD) {
+        const char *slash = strrchr(scene->waves.piston_path, '/');
+        snprintf(text + used, (size_t)(size - used), ", length %.4g m; %.80s",
+                 wave_length(scene, sea->period), slash ? slash + 1 : scene->waves.piston_path);
+        return;
+    }
     if (scene->waves.kind != WAVES_REGULAR || !(sea->height > 0)) {
         snprintf(text + used, (size_t)(size - used), "; %d components, peak's length %.4g m",
                  scene->waves.spectrum.components, wave_length(scene, sea->period));

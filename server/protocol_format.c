@@ -108,7 +108,7 @@ static void write_winches(Json *json, const Scene *scene)
 
 static void write_limits(Json *json, const Waves *waves)
 {
-    if (waves->kind == WAVES_NONE) {
+    if (waves->kind == WAVES_NONE || waves->kind == WAVES_RECORD) { // nothing to change
         json_null(json, "limits");
         return;
     }

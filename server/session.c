@@ -196,7 +196,8 @@ static void fill_from_state(const Session *session, SessionStatus *status)
                                         .asked = state->orders[l].length,
                                         .largest = state->lines[l].largest_tension,
                                         .parted = state->lines[l].parted_count > 0};
-    if (session->scene->waves.kind == WAVES_NONE) return;
+    WaveKind kind = session->scene->waves.kind;
+    if (kind == WAVES_NONE || kind == WAVES_RECORD) return; // nothing to ask for
     status->has_waves = true;
     status->wave_asked = state->waves->asked;
     status->wave_now = waves_now(state->waves, state->time);
