@@ -72,34 +72,58 @@ FN void sym3_eliminate(Sym3 *m, const Coupling *b, const Sym3 *inverse)
     m->yz -= gg * inverse->yz + b->q.y * r.z + r.y * b->q.z;
 }
 
+/// Take node `from`, whose block is inverted, out of the row of its neighbour `to`.
+FN void block_take_out(Sym3 *diagonal, Vec3 *x, int to, int from, const Coupling *link)
+{
+    sym3_eliminate(&diagonal[to], link, &diagonal[from]);
+    x[to] = vec3_add(x[to], coupling_apply(link, sym3_apply(&diagonal[from], x[from])));
+}
+
+/// From the middle node outwards, with the inverse pivots in `diagonal`.
+FN void block_substitute(int first, int last, int middle, const Sym3 *diagonal,
+                         const Coupling *links, Vec3 *x)
+{
+    x[middle] = sym3_apply(&diagonal[middle], x[middle]);
+    for (int i = middle - 1, k = middle + 1; i >= first || k < last; i--, k++) {
+        if (i >= first)
+            x[i] = sym3_apply(&diagonal[i], vec3_add(x[i], coupling_apply(&links[i], x[i + 1])));
+        if (k < last)
+            x[k] =
+                sym3_apply(&diagonal[k], vec3_add(x[k], coupling_apply(&links[k - 1], x[k - 1])));
+    }
+}
+
 /// Solve for nodes first..last-1; `links[i]` joins node i and i + 1. On return `diagonal` holds the
-/// inverse pivots and `x` (the right side on entry) the solution.
+/// inverse pivots and `x` (the right side on entry) the solution. Elimination goes from both ends
+/// to the middle: two chains of operations that do not wait for each other.
 FN void block_solve(int first, int last, Sym3 *diagonal, const Coupling *links, Vec3 *x)
 {
-    for (int i = first; i < last; i++) {
-        if (i > first) {
-            sym3_eliminate(&diagonal[i], &links[i - 1], &diagonal[i - 1]);
-            x[i] = vec3_add(x[i],
-                            coupling_apply(&links[i - 1], sym3_apply(&diagonal[i - 1], x[i - 1])));
-        }
-        diagonal[i] = sym3_inverse(&diagonal[i]);
+    if (first >= last) return;
+    int middle = (first + last) / 2;
+    for (int i = first, k = last - 1; i < middle || k > middle; i++, k--) {
+        if (i < middle) diagonal[i] = sym3_inverse(&diagonal[i]);
+        if (k > middle) diagonal[k] = sym3_inverse(&diagonal[k]);
+        if (i < middle) block_take_out(diagonal, x, i + 1, i, &links[i]);
+        if (k > middle) block_take_out(diagonal, x, k - 1, k, &links[k - 1]);
     }
-    for (int i = last - 1; i >= first; i--) {
-        if (i + 1 < last) x[i] = vec3_add(x[i], coupling_apply(&links[i], x[i + 1]));
-        x[i] = sym3_apply(&diagonal[i], x[i]);
-    }
+    diagonal[middle] = sym3_inverse(&diagonal[middle]);
+    block_substitute(first, last, middle, diagonal, links, x);
 }
 
 /// The same for another right side, once `diagonal` holds the inverse pivots.
 FN void block_solve_again(int first, int last, const Sym3 *diagonal, const Coupling *links, Vec3 *x)
 {
-    for (int i = first + 1; i < last; i++)
-        x[i] =
-            vec3_add(x[i], coupling_apply(&links[i - 1], sym3_apply(&diagonal[i - 1], x[i - 1])));
-    for (int i = last - 1; i >= first; i--) {
-        if (i + 1 < last) x[i] = vec3_add(x[i], coupling_apply(&links[i], x[i + 1]));
-        x[i] = sym3_apply(&diagonal[i], x[i]);
+    if (first >= last) return;
+    int middle = (first + last) / 2;
+    for (int i = first, k = last - 1; i < middle || k > middle; i++, k--) {
+        if (i < middle)
+            x[i + 1] =
+                vec3_add(x[i + 1], coupling_apply(&links[i], sym3_apply(&diagonal[i], x[i])));
+        if (k > middle)
+            x[k - 1] =
+                vec3_add(x[k - 1], coupling_apply(&links[k - 1], sym3_apply(&diagonal[k], x[k])));
     }
+    block_substitute(first, last, middle, diagonal, links, x);
 }
 
 #endif

@@ -54,6 +54,25 @@ TEST(lumped_tension_is_within_0_2_percent_at_20_and_0_05_at_80_segments)
     }
 }
 
+/// What a body feels: the tension at the very end, half a segment's weight included.
+TEST(force_at_the_fairlead_is_within_0_2_percent_of_the_catenary_at_20_segments)
+{
+    for (int i = 0; i < 4; i++) {
+        const DrivenCase *c = driven_case(analytic[i].name);
+        LineScene scene = driven_scene(c, 20);
+        WaterField water = driven_water(c);
+        Arena arena = arena_create(0);
+        Line line;
+        Error error = {0};
+        CHECK(line_create(&scene, c->anchor, c->fairlead, &water, c->name, &arena, &line, NULL,
+                          &error));
+        double off = vec3_norm(line.fairlead_force) / analytic[i].fairlead - 1;
+        printf("  %s %+.3f %%\n", c->name, 100 * off);
+        CHECK(fabs(off) < 0.002);
+        arena_destroy(&arena);
+    }
+}
+
 TEST(lumped_shapes_match_the_reference_within_a_micrometre)
 {
     const char *names[] = {"a1", "a2", "a3", "a4"};
