@@ -49,7 +49,8 @@ static double touchdown_length(const Line *line)
     for (int i = 0; i + 1 < line->node_count; i++) {
         double a = line->position[i].z - makeup->bed, b = line->position[i + 1].z - makeup->bed;
         double low = mind(a, b), high = maxd(a, b);
-        double share = high <= 0 ? 1 : low > 0 ? 0 : -low / (high - low);
+        if (low > 0) continue;
+        double share = high <= 0 ? 1 : -low / (high - low);
         length += share * makeup->segment[i]->length;
     }
     return length;

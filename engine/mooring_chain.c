@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/clones.h"
+
 /// Half bandwidth of a line that bends: three nodes of three unknowns, the diagonal among them.
 enum { BAND = 9 };
 /// A pivot below this share of its diagonal is rounding: the node hangs on nothing in some
@@ -297,7 +299,8 @@ static void points_solve(PointBlock *points)
     }
 }
 
-void chains_solve(Chain *const *chains, int count, PointBlock *points)
+CLONES("arch=x86-64-v3", "default")
+__attribute__((flatten)) void chains_solve(Chain *const *chains, int count, PointBlock *points)
 {
     int n = points->count;
     if (n > 0) memset(points->matrix, 0, (size_t)(9 * n * n) * sizeof(double));

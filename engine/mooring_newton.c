@@ -1,5 +1,6 @@
 /// Newton's method on one implicit step: directions of the segments are fixed in turn, and what is
 /// left is monotone. See mooring_bdf2.c.
+#include "base/clones.h"
 #include "mooring_implicit.h"
 
 enum { OUTER_MAX = 12, INNER_MAX = 25, SEARCH_MAX = 12 };
@@ -329,16 +330,24 @@ static double curved_work(const LineNet *net, double t)
 static double search_length(const LineNet *net)
 {
     StepWork work = step_work(net);
-    double low = 0, high = 1, t = 1;
+    double low = 0, at_low = work.start, high = 1, at_high = 0, t = 1;
+    int side = 0;
     for (int k = 0; k < SEARCH_MAX; k++) {
         double done = work.start - t * work.stiff + curved_work(net, t);
         if (fabs(done) <= 0.1 * work.start) return t;
-        if (done > 0)
+        if (done > 0) { // false position, where a side that stays counts half (Illinois)
+            if (side > 0) at_high *= 0.5;
+            side = 1;
             low = t;
-        else
+            at_low = done;
+        } else {
+            if (side < 0) at_low *= 0.5;
+            side = -1;
             high = t;
+            at_high = done;
+        }
         if (low == 1) return 1;
-        t = 0.5 * (low + high);
+        t = low + (high - low) * at_low / (at_low - at_high);
     }
     return t;
 }
@@ -452,7 +461,9 @@ static int take_move(Implicit *im)
     return !isfinite(sum) ? -1 : right;
 }
 
-bool implicit_solve(LineNet *net)
+/// With all that it calls in this file compiled for fused multiply-add, too.
+CLONES("arch=x86-64-v3", "default")
+__attribute__((flatten)) bool implicit_solve(LineNet *net)
 {
     for (int k = 0; k < OUTER_MAX; k++) {
         for (int l = 0; l < net->line_count; l++) {

@@ -1,15 +1,10 @@
 /// Forces on the nodes of a line and the explicit midpoint step. Plain loops over one array per
 /// component: this file is compiled so that they vectorise (see CMakeLists.txt).
+#include "base/clones.h"
 #include "mooring_internal.h"
 
-/// The same loops compiled for wider registers, chosen when the program starts; without contraction
-/// all give the same bits. (Sanitizers are not ready yet when that choice is made.)
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define WIDE
-#endif
+/// The same loops compiled for wider registers; without contraction all give the same bits.
+#define WIDE CLONES("arch=x86-64-v4", "arch=x86-64-v3", "default")
 
 /// Nodes are examined for sickness every so many sub-steps.
 enum { SICKNESS_INTERVAL = 16 };
