@@ -132,7 +132,11 @@ void waves_tell(const Scene *scene, char *text, int size)
                  wave_length(scene, sea->period), slash ? slash + 1 : scene->waves.piston_path);
         return;
     }
-    if (scene->waves.kind != WAVES_REGULAR || !(sea->height > 0)) {
+    if (scene->waves.kind == WAVES_REGULAR && !(sea->height > 0)) {
+        snprintf(text + used, (size_t)(size - used), "; still");
+        return;
+    }
+    if (scene->waves.kind != WAVES_REGULAR) {
         snprintf(text + used, (size_t)(size - used), "; %d components, peak's length %.4g m",
                  scene->waves.spectrum.components, wave_length(scene, sea->period));
         return;

@@ -486,3 +486,11 @@ TEST(in_a_domain_of_lines_waves_ride_on_the_current_and_nothing_flows_back)
     CHECK(w->wave_number < 0.9 * still.layers[0].train.terms.wave_number);
     CHECK(w->mean_velocity == 0); // who asks adds the current
 }
+
+TEST(a_regular_wave_of_no_height_is_told_as_still)
+{
+    char text[400];
+    waves_tell(scene_of(0, 1.4, 0, 1), text, sizeof text);
+    CHECK_CONTAINS(text, "still");
+    CHECK(!strstr(text, "components"));
+}
