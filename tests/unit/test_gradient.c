@@ -1,19 +1,11 @@
 /// Momentum with corrected kernel gradients, against all pairs in double.
-#include "test.h"
+#include "water_block.h"
 
-#include "backend/backend.h"
 #include "physics/gradient.h"
 
 enum { NX = 12, NY = 10, NZ = 9, N = NX * NY * NZ };
-static const double DP = 0.05, RHO0 = 1000, C0 = 20;
 static Vec3 place[N], velocity[N];
 static float excess[N];
-
-static double random_unit(unsigned *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return (*seed >> 8) / 16777216.0;
-}
 
 /// A block of water on its own. @param disorder  of its lattice, in spacings
 static BackendSetup water(int dimensions, double disorder, unsigned seed)
@@ -28,25 +20,10 @@ static BackendSetup water(int dimensions, double disorder, unsigned seed)
             vec3(random_unit(&seed) - 0.5, random_unit(&seed) - 0.5, random_unit(&seed) - 0.5);
         excess[i] = (float)(0.02 * random_unit(&seed));
     }
-    BackendSetup s;
-    memset(&s, 0, sizeof s);
-    s.dimensions = dimensions;
-    s.threads = 2;
-    for (int a = 0; a < 3; a++) {
-        s.room_min[a] = -0.5;
-        s.room_max[a] = 1.5;
-        s.barrier_min[a] = -INFINITY;
-        s.barrier_max[a] = INFINITY;
-    }
-    s.spacing = DP;
-    s.smoothing_length = 2 * DP;
-    s.particle_mass = RHO0 * DP * DP * (dimensions == 2 ? 1 : DP);
-    s.rest_density = RHO0;
-    s.sound_speed = C0;
+    BackendSetup s = water_setup(dimensions);
     s.alpha = 0.05;
     s.gravity = 9.81;
     s.level = DP * NZ;
-    s.largest_travel = 0.002;
     s.pair_mask = PAIR_VISCOSITY | PAIR_GRADIENT;
     return s;
 }
@@ -60,14 +37,7 @@ static void rates(const BackendSetup *setup, int count, float (*a)[3])
     start.fluid_position = place;
     start.fluid_velocity = velocity;
     start.fluid_excess = excess;
-    Arena arena = arena_create(0);
-    Backend *backend;
-    Error error = {0};
-    const BackendTable *cpu = backend_cpu();
-    CHECK(cpu->create(setup, &start, &arena, &backend, &error));
-    CHECK(cpu->probe_rates(backend, a, density_rate, &error));
-    cpu->destroy(backend);
-    arena_destroy(&arena);
+    water_rates(setup, &start, a, density_rate);
 }
 
 /// grad_i W [1/m^4 or 1/m^3]

@@ -1,8 +1,8 @@
 /// Bodies keep the water out: no jet a particle thin goes through a hull's dummies.
 #include "scenes.h"
 
-#include "backend/backend.h"
 #include "hull.h"
+#include "water_block.h"
 
 /// How deep the deepest water lies behind the skin of the first body [spacings].
 static double deepest_behind(const Run *run)
@@ -49,7 +49,7 @@ TEST(water_stays_out_of_a_stirring_ball)
     CHECK(deepest_while_stirred(SOURCE_DIR "/tests/good_cases/stirring_ball.json", 1.6) < 0.6);
 }
 
-static const double DP = 0.05, MASS = 0.125, DT = 1e-3, RADIUS = 0.2;
+static const double MASS = 0.125, DT = 1e-3, RADIUS = 0.2;
 
 static double ball_skin(const void *context, int body, Vec3 at)
 {
@@ -77,19 +77,8 @@ static void stray_create(Stray *s, Vec3 place, Vec3 velocity)
     s->pose = (BodyPose){{0.5, 0.5, 0.5}, {1, 0, 0, 0}};
     for (int k = 0; k < 8; k++)
         s->dummies[k] = vec3(k & 1 ? 0.17 : -0.17, k & 2 ? 0.17 : -0.17, k & 4 ? 0.17 : -0.17);
-    BackendSetup setup = {.dimensions = 3, .threads = 2, .body_count = 1};
-    for (int a = 0; a < 3; a++) {
-        setup.room_max[a] = 1;
-        setup.inside_max[a] = 1;
-        setup.barrier_min[a] = -INFINITY;
-        setup.barrier_max[a] = INFINITY;
-    }
-    setup.spacing = DP;
-    setup.smoothing_length = 2 * DP;
-    setup.particle_mass = MASS;
-    setup.rest_density = 1000;
-    setup.sound_speed = 20;
-    setup.largest_travel = 0.002;
+    BackendSetup setup = water_setup(3);
+    setup.body_count = 1;
     ParticleStart particles = {1, &s->place, &s->velocity, &s->excess, 8, s->dummies, owners};
     CHECK(backend_cpu()->create(&setup, &particles, &s->arena, &s->backend, &error));
     Advance advance = {.poses = &s->pose, .skin = ball_skin};
