@@ -102,8 +102,8 @@ static void choose_waves(const Scene *scene, Plan *plan, const Fill *fill)
     set(plan, EFFECT_ZONE, basin, 0, basin ? "waves in a basin: %.3g m wide" : off,
         plan->zone_width);
     set(plan, EFFECT_PISTON, flume, (size_t)MOVING_BYTES * (size_t)fill->piston_count,
-        flume ? "waves in a flume: %d moving dummies, travel within %.3g m" : off,
-        fill->piston_count, plan->wall_reach);
+        flume ? "waves in a flume: %d moving dummies, order %d, travel within %.3g m" : off,
+        fill->piston_count, scene->waves.piston_order, plan->wall_reach);
     if (plan->piston) {
         const MotionTable *record = plan->piston;
         set(plan, EFFECT_PISTON, flume, (size_t)MOVING_BYTES * (size_t)fill->piston_count,

@@ -34,6 +34,35 @@ bool piston_load(const Scene *scene, Arena *arena, const MotionTable **table, Er
     return true;
 }
 
+/// Peak periods of an irregular sea that its travel is taken from, and samples in one; a tenth more
+/// for what comes later.
+enum { TRAVEL_PERIODS = 300, TRAVEL_SAMPLES = 12 };
+static const double TRAVEL_MARGIN = 1.1;
+
+bool piston_reach(const Scene *scene, double *reach, Error *error)
+{
+    const Waves *w = &scene->waves;
+    *reach = waves_wall_reach(scene);
+    bool sea = w->kind == WAVES_IRREGULAR || w->kind == WAVES_FOCUSED;
+    if (!sea || scene->domain.kind != DOMAIN_FLUME || w->piston_order < 2) return true;
+    WaveState waves = waves_create(scene);
+    Arena arena = arena_create(0);
+    WaveLayer *layer = &waves.layers[0];
+    layer->target.height = maxd(w->initial.height, w->height_limits.max);
+    layer->target.period = maxd(w->initial.period, w->period_limits.max);
+    waves.layer_count = 1; // no ramp: full height at once
+    bool good = waves_take_sea(&waves, scene, &arena, error);
+    int focused = w->kind == WAVES_FOCUSED ? w->spectrum.components / 2 : 0; // once and again
+    int count = (focused ? focused : TRAVEL_PERIODS) * TRAVEL_SAMPLES;
+    double begin = focused ? w->focus.time - focused * layer->target.period / 2 : 0;
+    for (int i = 0; good && i < count; i++) {
+        double x = piston_displacement(&waves, begin + i * layer->target.period / TRAVEL_SAMPLES);
+        *reach = maxd(*reach, TRAVEL_MARGIN * fabs(x));
+    }
+    arena_destroy(&arena);
+    return good;
+}
+
 double piston_stroke_ratio(double kd)
 {
     // for large kd the ratio of the exponentials
@@ -62,16 +91,24 @@ static double regular_stroke(const WaveState *waves, const WaveTrain *t, double 
     return stroke + piston_second_ratio(kd, 2 * w->crest[1], w->depth) * sin(2 * angle);
 }
 
-static double sea_stroke(const Sea *sea, const SeaLayer *layer, double x, double time)
+/// Strokes of all components, and to second order what their products ask for: with a layer's
+/// weight, as the wave has it, its square.
+static double sea_stroke(const Sea *sea, const SeaLayer *layer, double x, double time,
+                         double weight)
 {
-    double sum = 0;
-    for (int i = 0; i < sea->count && layer->target.height > 0; i++) {
+    double sum = 0, cosine[SCENE_COMPONENTS_MAX], sine[SCENE_COMPONENTS_MAX];
+    if (!(layer->target.height > 0)) return 0;
+    for (int i = 0; i < sea->count; i++) {
         double angle = layer->angular_frequency[i] * (time - layer->time_origin) -
                        2 * PI * (layer->turns_x[i] * x + layer->turns[i]);
         double amplitude = layer->amplitude[i] * (1 - layer->depth_ratio[i]);
-        sum += amplitude * piston_stroke_ratio(layer->wave_number[i] * sea->depth) * sin(angle);
+        sine[i] = sin(angle);
+        cosine[i] = sea->second ? cos(angle) : 0;
+        sum += amplitude * piston_stroke_ratio(layer->wave_number[i] * sea->depth) * sine[i];
     }
-    return sum;
+    double second = 0;
+    if (sea->second) second = piston_pairs_sum(&layer->pairs, cosine, sine) - layer->pairs_start;
+    return weight * (sum + weight * second);
 }
 
 double piston_displacement(const WaveState *waves, double time)
@@ -86,9 +123,9 @@ double piston_displacement(const WaveState *waves, double time)
     waves_layer_weights(waves, time, weights);
     for (int i = 0; i < waves->layer_count; i++)
         displacement +=
-            weights[i].value * (waves->sea ? sea_stroke(waves->sea, &waves->sea->layers[i],
-                                                        waves->interior.min[0], time)
-                                           : regular_stroke(waves, &waves->layers[i].train, time));
+            waves->sea ? sea_stroke(waves->sea, &waves->sea->layers[i], waves->interior.min[0],
+                                    time, weights[i].value)
+                       : weights[i].value * regular_stroke(waves, &waves->layers[i].train, time);
     return displacement;
 }
 

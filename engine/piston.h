@@ -11,6 +11,10 @@
 /// @return false with ERROR_INPUT naming the file, and its line where one is bad
 bool piston_load(const Scene *scene, Arena *arena, const MotionTable **table, Error *error);
 
+/// Most that ring or piston may move sideways in waves that may be set [m]: waves_wall_reach, and
+/// of a sea's piston to second order what its path says, where that is more.
+bool piston_reach(const Scene *scene, double *reach, Error *error);
+
 /// Where the paddle is, from its mean place [m].
 double piston_displacement(const WaveState *waves, double time);
 

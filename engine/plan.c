@@ -242,6 +242,19 @@ static void lines_warnings(const Scene *scene, char *text, size_t size)
         }
 }
 
+/// Where the differences of a sea move the piston farther than its waves do, second order is not
+/// small.
+static void warn_of_travel(const Scene *scene, Plan *plan)
+{
+    double first = waves_wall_reach(scene);
+    size_t used = strlen(plan->warnings), size = sizeof plan->warnings;
+    if (scene->domain.kind != DOMAIN_FLUME || plan->piston || plan->wall_reach <= first) return;
+    snprintf(plan->warnings + used, size - used,
+             "%spiston travels %.3g m to second order, %.3g m to first: water too shallow for it; "
+             "lower waves, or waves.piston_order 1",
+             used ? "; " : "", plan->wall_reach, first);
+}
+
 static bool build(const Scene *scene, Plan *plan, Error *error)
 {
     if (scene->domain.kind == DOMAIN_LINES) return build_lines(scene, plan, error);
@@ -262,7 +275,8 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
                       (scene->fluid.walls == WALLS_NO_SLIP ? PAIR_NO_SLIP : 0);
     effects_name(plan->effects);
     TRY(piston_load(scene, &plan->arena, &plan->piston, error));
-    plan->wall_reach = plan->piston ? plan->piston->reach : waves_wall_reach(scene);
+    TRY(piston_reach(scene, &plan->wall_reach, error));
+    if (plan->piston) plan->wall_reach = plan->piston->reach;
     TRY(mesh_bodies(scene, plan, error));
     choose_sound_speed(scene, plan);
     TRY(hang_lines(scene, plan, error));
@@ -294,6 +308,7 @@ bool plan_build(const Scene *scene, const EngineOptions *options, Plan *plan, Er
             lines_warnings(scene, plan->warnings, sizeof plan->warnings);
         else if (scene->waves.kind != WAVES_NONE)
             waves_warnings(scene, plan->warnings, sizeof plan->warnings);
+        warn_of_travel(scene, plan);
         return true;
     }
     plan_destroy(plan);

@@ -29,6 +29,7 @@ enum {
     SCENE_GREEN_WATERS_MAX = 32,
     SCENE_FLUID_BLOCKS_MAX = 16,
     SCENE_POLYGON_MAX = 256,
+    SCENE_COMPONENTS_MAX = 512, ///< of a sea
 };
 
 typedef enum DomainKind {
@@ -140,7 +141,7 @@ typedef struct Waves {
     Focus focus;       ///< focused
     WaveGain gain;
     Current current;
-    int piston_order;                  ///< flume: 1, or 2 with the piston's own second harmonic
+    int piston_order;                  ///< flume: 1, or 2 without free waves of second order
     char piston_path[SCENE_PATH_SIZE]; ///< record: the table, resolved against the case's folder
     WaveTarget initial;
     WaveStart start;

@@ -70,7 +70,7 @@ static const JsonField SPECTRUM_FIELDS[] = {
     {"shape", FIELD_CHOICE, IN_CASE(scene.waves.spectrum.kind), .choices = {"jonswap", "pierson_moskowitz"}},
     {"peak_enhancement", FIELD_NUMBER, IN_CASE(scene.waves.spectrum.peak_enhancement), .min = 1, .max = 20},
     {"spreading", FIELD_NUMBER, IN_CASE(scene.waves.spectrum.spreading), .max = 200},
-    {"components", FIELD_INTEGER, IN_CASE(scene.waves.spectrum.components), .min = 8, .max = 512},
+    {"components", FIELD_INTEGER, IN_CASE(scene.waves.spectrum.components), .min = 8, .max = SCENE_COMPONENTS_MAX},
     {"seed", FIELD_INTEGER, IN_CASE(scene.waves.spectrum.seed), .max = 2147483647},
 };
 static const JsonTable SPECTRUM_TABLE = {SPECTRUM_FIELDS, COUNT(SPECTRUM_FIELDS), NULL};

@@ -113,9 +113,14 @@ bool sea_create(const Scene *scene, Arena *arena, Sea **result, Error *error)
     TRY(sea->shape = arena_take(arena, (size_t)sea->count, sizeof *sea->shape, "sea", error));
     for (int i = 0; i < WAVE_LAYERS_MAX; i++)
         TRY(layer_take(&sea->layers[i], sea->count, arena, error));
+    sea->second = domain->kind == DOMAIN_FLUME && scene->waves.piston_order > 1;
+    for (int i = 0; i < WAVE_LAYERS_MAX && sea->second; i++)
+        TRY(piston_pairs_take(&sea->layers[i].pairs, sea->count, arena, error));
     sea->depth = scene->fluid.level - domain->min.z;
     sea->level = scene->fluid.level;
     sea->gravity = scene->fluid.gravity;
+    sea->piston_x = domain->min.x;
+    sea->slowest = PI * sqrt(sea->gravity * sea->depth) / (domain->max.x - domain->min.x);
     sea->plane = domain->dimensions == 2;
     sea->centre_x = (domain->min.x + domain->max.x) / 2;
     sea->centre_y = sea->plane ? 0 : (domain->min.y + domain->max.y) / 2;
@@ -128,6 +133,25 @@ bool sea_create(const Scene *scene, Arena *arena, Sea **result, Error *error)
     shape_random(sea, spectrum->spreading, (uint64_t)spectrum->seed);
     *result = sea;
     return true;
+}
+
+/// What the piston does beside the strokes. It begins at its mean place: a group's differences hold
+/// it elsewhere between groups, and getting there would be a long wave of its own. A group has no
+/// slower difference than its step of frequency; of an irregular sea those below the flume's lowest
+/// seiche are no waves there, and the travel would grow without bound as they get slower.
+static void make_second(const Sea *sea, SeaLayer *layer)
+{
+    double amplitude[SCENE_COMPONENTS_MAX], cosine[SCENE_COMPONENTS_MAX];
+    double sine[SCENE_COMPONENTS_MAX];
+    for (int i = 0; i < sea->count; i++) {
+        double angle = -2 * PI * (layer->turns_x[i] * sea->piston_x + layer->turns[i]);
+        amplitude[i] = layer->amplitude[i] * (1 - layer->depth_ratio[i]);
+        cosine[i] = cos(angle);
+        sine[i] = sin(angle);
+    }
+    piston_pairs_make(&layer->pairs, amplitude, layer->angular_frequency, sea->depth, sea->gravity,
+                      sea->focused ? 0 : sea->slowest);
+    layer->pairs_start = piston_pairs_sum(&layer->pairs, cosine, sine);
 }
 
 static void layer_make(const Sea *sea, SeaLayer *layer, const WaveTarget *target,
@@ -156,6 +180,7 @@ static void layer_make(const Sea *sea, SeaLayer *layer, const WaveTarget *target
         layer->turns[i] =
             remainder(phase / (2 * PI) - layer->turns_x[i] * x - layer->turns_y[i] * y, 1);
     }
+    if (sea->second && target->height > 0) make_second(sea, layer);
 }
 
 void sea_refresh(Sea *sea, const WaveState *waves)

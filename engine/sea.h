@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "piston_second.h"
 #include "waves.h"
 
 /// One component whatever height, period and heading are: what seed and spectrum decide.
@@ -32,6 +33,8 @@ typedef struct SeaLayer {
     double *turns;             ///< theta / 2 pi at x = y = 0 and `time_origin`
     double *depth_ratio;       ///< E = exp(-2kd)
     double *cosine, *sine;     ///< of the direction
+    PistonPairs pairs;         ///< only where Sea.second
+    double pairs_start;        ///< what they give at `time_origin`, taken off [m]
 } SeaLayer;
 
 typedef struct Sea {
@@ -41,6 +44,9 @@ typedef struct Sea {
     double depth, level, gravity, centre_x, centre_y;
     double focus_x, focus_y, focus_time;
     bool focused, plane;
+    bool second;     ///< a piston makes it, to second order
+    double piston_x; ///< mean place [m]
+    double slowest;  ///< lowest seiche of the flume [rad/s]
 } Sea;
 
 /// Components by the scene's spectrum, spreading and seed.
