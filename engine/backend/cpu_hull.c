@@ -144,7 +144,7 @@ void hulls_hold(Backend *b, const Advance *advance, double fastest)
 {
     const Grid *grid = &b->grid;
     b->strayed += fastest * advance->dt;
-    int32_t strayed = (int32_t)mind(b->strayed / grid->unit, COORDINATE_END / 2);
+    int32_t strayed = (int32_t)mind(b->strayed / grid->unit, 0.5 * COORDINATE_END);
     for (int body = 0; body < b->setup.body_count; body++) {
         int32_t low[3], high[3];
         hull_box(b, &advance->poses[body], &b->hulls[body], low, high);
