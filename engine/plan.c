@@ -246,13 +246,25 @@ static void lines_warnings(const Scene *scene, char *text, size_t size)
 /// small.
 static void warn_of_travel(const Scene *scene, Plan *plan)
 {
+    if (scene->waves.kind == WAVES_NONE || scene->domain.kind != DOMAIN_FLUME || plan->piston)
+        return;
     double first = waves_wall_reach(scene);
     size_t used = strlen(plan->warnings), size = sizeof plan->warnings;
-    if (scene->domain.kind != DOMAIN_FLUME || plan->piston || plan->wall_reach <= first) return;
+    if (plan->wall_reach <= first) return;
     snprintf(plan->warnings + used, size - used,
              "%spiston travels %.3g m to second order, %.3g m to first: water too shallow for it; "
              "lower waves, or waves.piston_order 1",
              used ? "; " : "", plan->wall_reach, first);
+}
+
+/// How far ring or piston may go.
+static bool reach_of_walls(const Scene *scene, Plan *plan, Error *error)
+{
+    if (scene->waves.kind == WAVES_NONE) return true;
+    TRY(piston_load(scene, &plan->arena, &plan->piston, error));
+    if (!plan->piston) return piston_reach(scene, &plan->wall_reach, error);
+    plan->wall_reach = plan->piston->reach;
+    return true;
 }
 
 static bool build(const Scene *scene, Plan *plan, Error *error)
@@ -274,9 +286,7 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
                       (scene->fluid.turbulence == TURBULENCE_SPS ? PAIR_TURBULENCE : 0) |
                       (scene->fluid.walls == WALLS_NO_SLIP ? PAIR_NO_SLIP : 0);
     effects_name(plan->effects);
-    TRY(piston_load(scene, &plan->arena, &plan->piston, error));
-    TRY(piston_reach(scene, &plan->wall_reach, error));
-    if (plan->piston) plan->wall_reach = plan->piston->reach;
+    TRY(reach_of_walls(scene, plan, error));
     TRY(mesh_bodies(scene, plan, error));
     choose_sound_speed(scene, plan);
     TRY(hang_lines(scene, plan, error));

@@ -153,7 +153,7 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     TRY(take_arrays(b, start, arena, error));
     if (setup->works) TRY(works_create(b, arena, error));
     place_particles(b, start);
-    TRY(hulls_create(b, arena, error));
+    if (setup->body_count) TRY(hulls_create(b, arena, error));
     b->sweep = make_sweep(b);
     b->excess_floor =
         (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);

@@ -13,7 +13,6 @@ static const double STEPS_BACK = 4;
 
 bool hulls_create(Backend *b, Arena *arena, Error *error)
 {
-    if (!b->setup.body_count) return true;
     size_t count = (size_t)b->setup.body_count;
     TRY(b->hulls = arena_take(arena, count, sizeof(HullHold), "hulls", error));
     for (int k = 0; k < b->setup.body_count; k++) {
