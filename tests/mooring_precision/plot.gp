@@ -10,7 +10,7 @@ set ylabel "rms error, % of the first harmonic"
 set format y "%g"
 set key top right
 set xrange [1e3:3e6]
-set yrange [1e-3:20]
+set yrange [2e-5:100]
 above(step) = step == 0.01 || step == 0.0001 ? sprintf("%g ms", step*1000) : ""
 below(step) = step == 0.001 ? "1 ms" : ""
 do for [study in "shaken snapping"] {
