@@ -5,7 +5,7 @@
 
 enum { OUTER_MAX = 12, INNER_MAX = 25, SEARCH_MAX = 12 };
 /// Error of the tension allowed for geometry, as a share of tension + segment weight.
-static const double GEOMETRY_GOAL = 1e-5;
+static const double GEOMETRY_GOAL = 1e-4;
 /// The same for a change of tension within an iteration, which turns with the segment.
 static const double TURNING_GOAL = 1e-4;
 /// Piecewise-linear tensions are met to this share, bed forces to the next.
@@ -157,23 +157,27 @@ static void linearise_point(MooringPoint *point)
 }
 
 /// Pull of a segment on its lower node after the moves so far; its link in the system.
-FN Vec3 assemble_segment(Implicit *im, int i)
+FN Vec3 assemble_segment(Implicit *im, int i, bool moved)
 {
     const Segment *segment = &im->segments[i];
     Coupling *link = &im->chain.links[i];
-    Vec3 turned = vec3_sub(im->move[i + 1], im->move[i]);
-    turned = vec3_mad(turned, segment->q, -segment->u);
+    Vec3 pull = vec3_scale(segment->q, segment->tension);
     link->along = segment->slope;
     link->across = segment->across;
     link->q = segment->q;
-    return vec3_mad(vec3_scale(segment->q, segment->tension), turned, segment->across);
+    if (!moved) return pull;
+    Vec3 turned = vec3_sub(im->move[i + 1], im->move[i]);
+    turned = vec3_mad(turned, segment->q, -segment->u);
+    return vec3_mad(pull, turned, segment->across);
 }
 
 /// A node's own part of the system, with the pulls `f` of its segments and their blocks.
-FN void assemble_node(Implicit *im, int i, Vec3 f, const Segment *below, const Segment *above)
+FN void assemble_node(Implicit *im, int i, bool moved, Vec3 f, const Segment *below,
+                      const Segment *above)
 {
     Sym3 block = im->linear[i];
-    f = vec3_add(vec3_sub(im->force[i], sym3_apply(&block, im->move[i])), f);
+    f = vec3_add(im->force[i], f);
+    if (moved) f = vec3_sub(f, sym3_apply(&block, im->move[i]));
     f.z += im->contacts[i].force;
     im->residual[i] = f;
     im->chain.x[i] = f;
@@ -184,19 +188,20 @@ FN void assemble_node(Implicit *im, int i, Vec3 f, const Segment *below, const S
 }
 
 /// Out-of-balance forces and blocks of the linearised problem at the move so far.
-static void assemble(Implicit *im)
+FN void assemble(Implicit *im, bool moved)
 {
     int last = im->chain.last;
     const Segment *segments = im->segments;
     im->chain.x[0] = im->chain.x[last] = vec3(0, 0, 0);
-    Vec3 below = assemble_segment(im, 0); // pull on the lower node, taken from the upper one
-    if (im->first == 0) assemble_node(im, 0, below, NULL, &segments[0]);
+    Vec3 below = assemble_segment(im, 0, moved); // pull on the lower node, taken from the upper one
+    if (im->first == 0) assemble_node(im, 0, moved, below, NULL, &segments[0]);
     for (int i = 1; i < last; i++) {
-        Vec3 pull = assemble_segment(im, i);
-        assemble_node(im, i, vec3_sub(pull, below), &segments[i - 1], &segments[i]);
+        Vec3 pull = assemble_segment(im, i, moved);
+        assemble_node(im, i, moved, vec3_sub(pull, below), &segments[i - 1], &segments[i]);
         below = pull;
     }
-    if (im->end > last) assemble_node(im, last, vec3_scale(below, -1), &segments[last - 1], NULL);
+    if (im->end > last)
+        assemble_node(im, last, moved, vec3_scale(below, -1), &segments[last - 1], NULL);
 }
 
 /// Shear of a line that bends, on top of the rest.
@@ -393,11 +398,14 @@ static void finish(Implicit *im)
         im->move[i] = vec3_add(im->move[i], im->chain.x[i]);
 }
 
-static void newton_step(LineNet *net)
+static void newton_step(LineNet *net, bool moved)
 {
     for (int l = 0; l < net->line_count; l++) {
         Implicit *im = implicit_of(net->lines[l]);
-        assemble(im);
+        if (moved)
+            assemble(im, true);
+        else
+            assemble(im, false);
         if (im->chain.bends) assemble_bending(im);
     }
     for (int p = 0; p < net->block.count; p++)
@@ -409,7 +417,7 @@ static void newton_step(LineNet *net)
 static bool solve_directions(LineNet *net)
 {
     for (int k = 0; k < INNER_MAX; k++) {
-        newton_step(net);
+        newton_step(net, k > 0);
         int holds = 1;
         for (int l = 0; l < net->line_count; l++) {
             int one = step_holds(implicit_of(net->lines[l]));
