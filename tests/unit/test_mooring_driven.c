@@ -232,3 +232,51 @@ TEST(implicit_steel_line_has_the_reference_s_mean_and_first_harmonic)
         check_mean_and_harmonic("c2", LINE_STEPPER_BDF2, steps[i], 0.169889, 0.0215131, 0.01, 0.03);
     }
 }
+
+enum { SAMPLES = 800 };
+static const double SAMPLE = 0.005; // s
+
+/// Tension of the last segment every SAMPLE seconds until `until`. @return how many, 0: failed
+static int sample_tension(const char *name, LineStepper stepper, double step, double until,
+                          double tension[SAMPLES])
+{
+    const DrivenCase *c = driven_case(name);
+    LineScene scene = driven_scene(c, 20);
+    WaterField water = driven_water(c);
+    Arena arena = arena_create(0);
+    Line line;
+    Error error = {0};
+    bool good =
+        line_create(&scene, c->anchor, c->fairlead, &water, name, &arena, &line, NULL, &error);
+    line.stepper = stepper;
+    EndPath anchor = still_path(c->anchor);
+    int count = 0;
+    long per_sample = lround(SAMPLE / step);
+    for (long k = 0; good && count < lround(until / SAMPLE); k++) {
+        EndPath path = driven_path(c, (double)k * step, step);
+        good = line_advance(&line, &water, (double)k * step, step, &anchor, &path, &error);
+        if ((k + 1) % per_sample == 0) tension[count++] = line.tension[19];
+    }
+    arena_destroy(&arena);
+    return good ? count : 0;
+}
+
+/// Against the explicit step's series of the same line, bed and snaps included, as a share of its
+/// root mean square: what is left is the step's alone.
+TEST(implicit_steel_line_follows_the_converged_series_within_1_percent_rms)
+{
+    static double ours[SAMPLES], theirs[SAMPLES];
+    const char *names[] = {"c1", "c2", "c3"};
+    for (int i = 0; i < 3; i++) {
+        int count = sample_tension(names[i], LINE_STEPPER_RK2, SAMPLE, 2, theirs);
+        CHECK(count == 400);
+        CHECK(sample_tension(names[i], LINE_STEPPER_BDF2, 2.5e-4, 2, ours) == count);
+        double error = 0, size = 0;
+        for (int k = 0; k < count; k++) {
+            error += (ours[k] - theirs[k]) * (ours[k] - theirs[k]);
+            size += theirs[k] * theirs[k];
+        }
+        printf("  %s: %.3f %% rms\n", names[i], 100 * sqrt(error / size));
+        CHECK(sqrt(error / size) < 0.01);
+    }
+}
