@@ -64,11 +64,9 @@ export function line(xs, ys) {
   return [my - slope * mx, slope];
 }
 
-/// Least squares fit of a sum of functions: coefficients c of sum c_k f_k(x).
-export function fit(xs, ys, functions) {
-  const n = functions.length;
-  const m = functions.map((f) => functions.map((g) => xs.reduce((sum, x) => sum + f(x) * g(x), 0)));
-  const b = functions.map((f) => xs.reduce((sum, x, i) => sum + f(x) * ys[i], 0));
+/// Solution of m x = b by elimination with pivots; both are overwritten.
+export function solve(m, b) {
+  const n = b.length;
   for (let k = 0; k < n; k++) {
     let best = k;
     for (let i = k + 1; i < n; i++) if (Math.abs(m[i][k]) > Math.abs(m[best][k])) best = i;
@@ -86,6 +84,11 @@ export function fit(xs, ys, functions) {
   }
   return b;
 }
+
+/// Least squares fit of a sum of functions: coefficients c of sum c_k f_k(x).
+export const fit = (xs, ys, functions) => solve(
+  functions.map((f) => functions.map((g) => xs.reduce((sum, x) => sum + f(x) * g(x), 0))),
+  functions.map((f) => xs.reduce((sum, x, i) => sum + f(x) * ys[i], 0)));
 
 /// Amplitude of the period T in [from, to), straight trend removed by the fit.
 export function amplitude(xs, ys, period, from, to) {
