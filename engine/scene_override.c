@@ -66,7 +66,7 @@ static bool follow(JsonValue *at, Step *step, const char *assignment, JsonValue 
                 return error_set(
                     error, ERROR_INPUT,
                     "--set %s: nothing in this list is named \"%s\": must be a name or "
-                    "an index below %d",
+                    "[index], an index below %d",
                     assignment, step->key, tree_count(at));
         }
         *child = (JsonValue *)tree_item(at, step->index);
