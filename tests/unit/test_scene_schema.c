@@ -194,33 +194,33 @@ static void compare_custom(const JsonField *field, const JsonValue *node, const 
     }
 }
 
+/// The schema's word for a kind of field; NULL where it has several.
+static const char *schema_type(FieldKind kind)
+{
+    switch (kind) {
+    case FIELD_NUMBER:
+        return "number";
+    case FIELD_INTEGER:
+        return "integer";
+    case FIELD_TEXT:
+    case FIELD_NAME:
+        return "string";
+    case FIELD_OBJECT:
+        return "object";
+    case FIELD_CHOICE:
+    case FIELD_CUSTOM:
+        return NULL;
+    default:
+        return "array";
+    }
+}
+
 static void compare_field(const JsonField *field, const JsonValue *node, const void *defaults,
                           const char *where)
 {
     char item[sizeof(BodyScene)] = {0};
     const char *inside = (const char *)defaults + field->offset;
-    const char *type = NULL;
-    switch (field->kind) {
-    case FIELD_NUMBER:
-        type = "number";
-        break;
-    case FIELD_INTEGER:
-        type = "integer";
-        break;
-    case FIELD_TEXT:
-    case FIELD_NAME:
-        type = "string";
-        break;
-    case FIELD_OBJECT:
-        type = "object";
-        break;
-    case FIELD_CHOICE:
-    case FIELD_CUSTOM:
-        break;
-    default:
-        type = "array";
-        break;
-    }
+    const char *type = schema_type(field->kind);
     if (type && !text_is(tree_member(node, "type"), type)) say(where, "the type differs");
     switch (field->kind) {
     case FIELD_NUMBER:
