@@ -90,11 +90,12 @@ export const fit = (xs, ys, functions) => solve(
   functions.map((f) => functions.map((g) => xs.reduce((sum, x) => sum + f(x) * g(x), 0))),
   functions.map((f) => xs.reduce((sum, x, i) => sum + f(x) * ys[i], 0)));
 
-/// Amplitude of the period T in [from, to), straight trend removed by the fit.
-export function amplitude(xs, ys, period, from, to) {
-  const x = window(xs, xs, from, to), y = window(xs, ys, from, to), w = 2 * Math.PI / period;
-  const c = fit(x, y, [() => 1, (t) => t - from, (t) => Math.cos(w * t), (t) => Math.sin(w * t)]);
-  return Math.hypot(c[2], c[3]);
+/// Drift, amplitude and phase of y = mean + drift (x - from) + amplitude cos(2 pi x/period - phase) in [from, to), fitted together:
+/// a line alone takes some of the swing for drift.
+export function swing(xs, ys, period, from, to) {
+  const w = 2 * Math.PI / period;
+  const c = fit(window(xs, xs, from, to), window(xs, ys, from, to), [() => 1, (x) => x - from, (x) => Math.cos(w * x), (x) => Math.sin(w * x)]);
+  return { drift: c[1], amplitude: Math.hypot(c[2], c[3]), phase: Math.atan2(c[3], c[2]) };
 }
 
 /// k of omega^2 = g k tanh kd.

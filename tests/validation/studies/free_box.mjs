@@ -1,45 +1,36 @@
 // A free box in waves: amplitudes of heave and roll, drift.
 import { atMost, reference } from '../harness.mjs';
-import { amplitude, line, window } from '../signal.mjs';
+import { swing } from '../signal.mjs';
 
 const PERIOD = 1.2, HEIGHT = 0.04, END = 11;
 const FROM = END - 4 * PERIOD; // ours: waves are there, what the box throws back has not come again from the piston, 8 m and 7 s
-
 function compare(simulate) {
   const measured = (name, column) => {
-    const data = reference(`ren2015/${name}.csv`);
-    const t = data.column('t_s_local'), y = data.column(column);
-    return { t, y, from: t[0], to: t.at(-1) };
+    const data = reference(`ren2015/${name}.csv`), t = data.column('t_s_local'), y = data.column(column);
+    return { t, y, ...swing(t, y, PERIOD, t[0], t[0] + Math.floor((t.at(-1) - t[0]) / PERIOD) * PERIOD) };
   };
-  const heave = measured('heave', 'heave_m'), roll = measured('roll', 'roll_deg'), sway = measured('sway', 'sway_m');
+  const theirs = { sway: measured('sway', 'sway_m'), heave: measured('heave', 'heave_m'), roll: measured('roll', 'roll_deg') };
   const run = simulate('free_box', { until: END });
-  const own = { heave: run.column('box.heave_m'), pitch: run.column('box.pitch_deg'), surge: run.column('box.surge_m'), wave: run.column('before.elevation_m') };
-  const of = (m) => amplitude(m.t, m.y, PERIOD, m.from, m.from + Math.floor((m.to - m.from) / PERIOD) * PERIOD);
-  const ours = (y) => amplitude(run.time, y, PERIOD, FROM, END);
-  const drift = (t, y, from, to) => line(window(t, t, from, to), window(t, y, from, to))[1];
-  const theirDrift = drift(sway.t, sway.y, sway.t[0], sway.t[0] + Math.floor((sway.t.at(-1) - sway.t[0]) / PERIOD) * PERIOD);
-  const ourDrift = drift(run.time, own.surge, FROM, END);
-  const percent = (value, of_) => value / of_ - 1;
+  const simulated = (name) => ({ y: run.column(name), ...swing(run.time, run.column(name), PERIOD, FROM, END) });
+  const ours = { sway: simulated('box.surge_m'), heave: simulated('box.heave_m'), roll: simulated('box.pitch_deg'), wave: simulated('before.elevation_m') };
   // the moment that lays our heave upon theirs
-  const phase = (t, y, from, to) => {
-    const w = 2 * Math.PI / PERIOD, x = window(t, t, from, to), v = window(t, y, from, to);
-    return Math.atan2(v.reduce((s, a, i) => s + a * Math.sin(w * x[i]), 0), v.reduce((s, a, i) => s + a * Math.cos(w * x[i]), 0)) / w;
-  };
-  let shift = phase(heave.t, heave.y, heave.from, heave.from + 4 * PERIOD) - phase(run.time, own.heave, FROM, END);
+  let shift = (theirs.heave.phase - ours.heave.phase) / (2 * Math.PI) * PERIOD;
   shift -= PERIOD * Math.ceil((FROM + shift) / PERIOD);
   const moved = run.time.map((t) => t + shift), start = moved.findIndex((t) => t >= 0);
   const panel = (title, y, m, values) => ({ title, x: 't [s]', y, key: 'outside right top', xrange: [0, 4 * PERIOD], curves: [
     { label: 'Ren et al.', style: 'points', x: m.t, y: m.y }, { label: 'simulated', x: moved.slice(start), y: values.slice(start) }] });
+  const bar = (what, factor, digits, unit, mine, measure, limit) => atMost(`${what} ${(factor * mine).toFixed(digits)} ${unit}, off the measured ` +
+    `${(factor * measure).toFixed(digits)} ${unit}`, mine / measure - 1, limit, '%');
   return {
     bars: [
-      atMost(`heave amplitude ${(1000 * ours(own.heave)).toFixed(2)} mm, off the measured ${(1000 * of(heave)).toFixed(2)} mm`, percent(ours(own.heave), of(heave)), 0.08, '%'),
-      atMost(`roll amplitude ${ours(own.pitch).toFixed(2)} deg, off the measured ${of(roll).toFixed(2)} deg`, percent(ours(own.pitch), of(roll)), 0.08, '%'),
-      atMost(`drift ${(1000 * ourDrift).toFixed(1)} mm/s, off the measured ${(1000 * theirDrift).toFixed(1)} mm/s`, percent(ourDrift, theirDrift), 0.2, '%'),
+      bar('heave amplitude', 1000, 2, 'mm', ours.heave.amplitude, theirs.heave.amplitude, 0.08),
+      bar('roll amplitude', 1, 2, 'deg', ours.roll.amplitude, theirs.roll.amplitude, 0.08),
+      bar('drift', 1000, 1, 'mm/s', ours.sway.drift, theirs.sway.drift, 0.2),
     ],
-    notes: [`First harmonic over the last four periods; height of the waves 1.8 m before the box, so measured: ${(2 * ours(own.wave) / HEIGHT).toFixed(3)} of what was asked.`],
-    plot: { columns: 1, panels: [panel('heave', 'heave [m]', heave, own.heave),
-      panel('roll', 'roll [deg]', roll, own.pitch),
-      panel('drift', 'sway [m]', sway, own.surge.map((x) => x - own.surge[start]))] },
+    notes: [`First harmonic over the last four periods; height of the waves 1.8 m before the box, so measured: ${(2 * ours.wave.amplitude / HEIGHT).toFixed(3)} of what was asked.`],
+    plot: { columns: 1, panels: [panel('heave', 'heave [m]', theirs.heave, ours.heave.y),
+      panel('roll', 'roll [deg]', theirs.roll, ours.roll.y),
+      panel('drift', 'sway [m]', theirs.sway, ours.sway.y.map((x) => x - ours.sway.y[start]))] },
   };
 }
 
