@@ -70,14 +70,6 @@ double piston_stroke_ratio(double kd)
     return (sinh(2 * kd) + 2 * kd) / (2 * (cosh(2 * kd) - 1));
 }
 
-double piston_second_ratio(double kd, double height, double depth)
-{
-    if (kd > 100) return -height * height * piston_stroke_ratio(kd) / (16 * depth);
-    double s = sinh(kd);
-    return height * height / (32 * depth) *
-           (3 * cosh(kd) / (s * s * s) - 2 * piston_stroke_ratio(kd));
-}
-
 /// The far field is eta = a cos(kx - omega t + phase), so the paddle's velocity is in phase with
 /// the elevation it makes and its displacement a quarter period behind.
 static double regular_stroke(const WaveState *waves, const WaveTrain *t, double time)
@@ -86,9 +78,8 @@ static double regular_stroke(const WaveState *waves, const WaveTrain *t, double 
     double kd = w->wave_number * w->depth;
     double angle = w->angular_frequency * (time - t->time_origin) - t->phase -
                    w->wave_number * (waves->interior.min[0] - t->centre_x);
-    double stroke = w->crest[1] * piston_stroke_ratio(kd) * sin(angle);
-    if (waves->piston_order < 2) return stroke;
-    return stroke + piston_second_ratio(kd, 2 * w->crest[1], w->depth) * sin(2 * angle);
+    double first = w->crest[1], stroke = first * piston_stroke_ratio(kd) * sin(angle);
+    return stroke + first * first * (t->second[0] * cos(2 * angle) - t->second[1] * sin(2 * angle));
 }
 
 /// Strokes of all components, and to second order what their products ask for: with a layer's

@@ -25,9 +25,4 @@ void piston_move(const void *context, double time, int count, const Vec3 *mean, 
 /// Source: Biesel & Suquet 1951; Dean & Dalrymple 1991, eq. 6.25.
 double piston_stroke_ratio(double kd);
 
-/// Amplitude of the paddle's second harmonic that keeps the free one from being made [m]:
-/// (H^2/32d) (3 cosh kd/sinh^3 kd - 2 S/H).
-/// Source: Madsen (1971), J. Geophys. Res. 76(36), 8672, doi:10.1029/JC076i036p08672.
-double piston_second_ratio(double kd, double height, double depth);
-
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "physics/wave_theory.h"
+#include "piston_second.h"
 #include "sea.h"
 #include "wave_orbits.h"
 
@@ -13,6 +14,8 @@ static const double FAR_PERIOD = 0.30;
 static const double LAYER_SPACING = 1.0 / 3;
 /// Orbits may miss those of the theory by this share of the height.
 static const double MISFIT = 0.01;
+/// kd up to which the piston's modes are followed.
+static const double DEEPEST = 8;
 
 double wave_number_airy(double angular_frequency, double depth, double gravity)
 {
@@ -64,6 +67,17 @@ static WaveTerms terms_create(const Scene *scene, const WaveTarget *target, Wave
     return terms;
 }
 
+/// What keeps the piston from making a free wave of twice the frequency. Where the wave no longer
+/// feels the bed its modes are too many (piston_second.h): the piston then counts as that deep.
+static void second_harmonic(const WaveTerms *terms, double gravity, double second[2])
+{
+    double depth = mind(terms->depth, DEEPEST / terms->wave_number);
+    PistonModes modes = piston_modes(terms->angular_frequency, depth, gravity);
+    PistonTransfer sum = piston_transfer(&modes, &modes, PISTON_SUM, depth, gravity);
+    second[0] = sum.real;
+    second[1] = sum.imaginary;
+}
+
 static WaveTrain train_create(const Scene *scene, const WaveTarget *asked, double gain)
 {
     WaveTarget made = *asked;
@@ -77,6 +91,8 @@ static WaveTrain train_create(const Scene *scene, const WaveTarget *asked, doubl
     train.terms.sin_heading = domain->dimensions == 2 ? 0 : sin(target->heading);
     train.centre_x = (domain->min.x + domain->max.x) / 2;
     train.centre_y = domain->dimensions == 2 ? 0 : (domain->min.y + domain->max.y) / 2;
+    if (domain->kind == DOMAIN_FLUME && scene->waves.piston_order > 1)
+        second_harmonic(&train.terms, scene->fluid.gravity, train.second);
     return train;
 }
 
@@ -112,7 +128,6 @@ WaveState waves_create(const Scene *scene)
     const WaveGain *gain = &scene->waves.gain;
     waves.gain =
         gain->gauge >= 0 && gain->start > 0 ? gain->start : 1; // a scene of zeros has no gain
-    waves.piston_order = scene->waves.piston_order;
     WaveLayer *base = &waves.layers[0];
     base->target = waves.asked;
     base->gain = waves.gain;

@@ -16,6 +16,8 @@ typedef struct WaveTrain {
     double centre_x, centre_y; ///< phases are matched there [m]
     WaveTheory theory;         ///< that they are of: what was asked, or second order instead
     WaveTerms terms;           ///< wave number, coefficients; phase terms and weights are not set
+    double second[2]; ///< flume: the piston's second harmonic over the wave's first squared,
+                      ///< real and imaginary part (piston_second.h) [1/m]
 } WaveTrain;
 
 /// A train laid over those before it. Its opacity b rises from 0 to 1 by a quintic smoothstep.
@@ -62,8 +64,7 @@ typedef struct WaveState {
     bool has_queued;                   ///< `queued` waits for its turn
     WaveTarget queued;
     WaveInterior interior;
-    double gain; ///< of new layers
-    int piston_order;
+    double gain;                      ///< of new layers
     struct Sea *sea;                  ///< components; NULL for regular waves; borrowed
     const struct MotionTable *record; ///< what the piston follows instead; NULL without; borrowed
 } WaveState;
