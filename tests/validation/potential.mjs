@@ -1,7 +1,8 @@
 // Linear potential flow around a rectangular section that heaves in water of finite depth, by matching eigenfunctions
-// under and beside it. Source: Lee (1995), Ocean Eng. 22, 19. Checked: added mass and damping satisfy the relation of
+// under and beside it, and its decay from an offset in time. Sources: Lee (1995), Ocean Eng. 22, 19, for the section;
+// Cummins (1962), Schiffstechnik 9, 101, and Ogilvie (1964) for the motion. Checked: added mass and damping satisfy the relation of
 // Kramers and Kronig (Ogilvie 1964) to six digits, damping of slow heave is rho g B^2/(2 sqrt(g d)).
-import { solve, waveNumber } from './signal.mjs';
+import { mean, solve, waveNumber } from './signal.mjs';
 
 export const GRAVITY = 9.81;
 const MODES = 40;
@@ -51,4 +52,33 @@ export function heavingBox({ breadth, draft, depth, density = 1000 }, omega) {
   const under = (part) => 2 * b * B[part] + Array.from({ length: MODES - 1 }, (_, i) => i + 1)
     .reduce((sum, m) => sum + 2 * flip(m) * B[part + m] * Math.tanh(l(m) * b) / l(m), 0);
   return { mass: density * (b * s - b ** 3 / (3 * s) + under(0)), damping: density * omega * under(MODES) };
+}
+
+const FREQUENCIES = 350, GAP = 0.1; // [rad/s]: up to 35, where nothing is radiated any more
+const HIGH = [60, 80, 100, 120]; // of GAP: midway between frequencies, so that sums are principal values
+
+/// The damping's memory K(t) = 2/pi int b cos wt dw [kg/(m s2)] at some times, and the mass [kg/m] that is left at infinite frequency:
+/// a_inf = a(W) - 2/pi int b/(w^2 - W^2) dw (Ogilvie 1964).
+function memory(box, times) {
+  const w = Array.from({ length: FREQUENCIES }, (_, i) => (i + 0.5) * GAP), b = w.map((omega) => heavingBox(box, omega).damping);
+  const sum = (f) => 2 / Math.PI * GAP * b.reduce((total, damping, k) => total + damping * f(w[k]), 0);
+  const masses = HIGH.map((i) => heavingBox(box, i * GAP).mass - sum((omega) => 1 / (omega ** 2 - (i * GAP) ** 2)));
+  return { kernel: times.map((t) => sum((omega) => Math.cos(omega * t))), mass: mean(masses) };
+}
+
+/// Heave of a box that floats at rest with its draft and is let go `offset` above it: { t, z } every `step` seconds.
+/// (m + a_inf) z'' + int K(t - u) z'(u) du + rho g B z = 0, by trapezes, implicit in the new velocity.
+export function heaveDecay(box, offset, until, step = 0.005) {
+  const t = Array.from({ length: Math.round(until / step) + 1 }, (_, i) => i * step), { kernel, mass } = memory(box, t);
+  const inertia = box.density * box.breadth * box.draft + mass, spring = box.density * GRAVITY * box.breadth, half = 0.5 * step;
+  const z = [offset], v = [0], a = [-spring * offset / inertia];
+  for (let i = 1; i < t.length; i++) {
+    let past = 0;
+    for (let j = 1; j < i; j++) past += step * kernel[i - j] * v[j];
+    const known = v[i - 1] + half * a[i - 1] - half * (past + spring * (z[i - 1] + half * v[i - 1])) / inertia;
+    v.push(known / (1 + half * half * (spring + kernel[0]) / inertia));
+    z.push(z[i - 1] + half * (v[i - 1] + v[i]));
+    a.push(-(past + half * kernel[0] * v[i] + spring * z[i]) / inertia);
+  }
+  return { t, z };
 }

@@ -1,7 +1,7 @@
-// A box that is heaved: its added mass and the waves that it radiates, against linear theory.
-import { atMost } from '../harness.mjs';
-import { GRAVITY, heavingBox } from '../potential.mjs';
-import { fit, mean, waveNumber, window } from '../signal.mjs';
+// A box in heave against linear theory: its added mass and the waves that it radiates, and how it comes to rest.
+import { atMost, holds } from '../harness.mjs';
+import { GRAVITY, heaveDecay, heavingBox } from '../potential.mjs';
+import { crossings, extremes, fit, mean, waveNumber, window } from '../signal.mjs';
 
 const T = 0.9, AMPLITUDE = 0.01, END = 5 * T, OMEGA = 2 * Math.PI / T;
 const BOX = { breadth: 0.3, draft: 0.1, depth: 0.4, density: 1000 };
@@ -18,7 +18,7 @@ function radiated(damping) {
   return OMEGA * AMPLITUDE * Math.sqrt(damping / (2 * BOX.density * GRAVITY * group));
 }
 
-function compare(simulate) {
+function compareForced(simulate) {
   const run = simulate('box_heave', { until: END }), theory = heavingBox(BOX, OMEGA);
   const [level, along, behind] = harmonic(run.time, run.column('box.fluid_fz_n'), 2 * T, END);
   // F = -rho g B z - a z'' - b z' for z = A sin wt
@@ -41,9 +41,37 @@ function compare(simulate) {
   };
 }
 
+const OFFSET = 0.02, REST = 2, PEAKS = 3;
+
+function period(x, y) {
+  const zero = crossings(x, y);
+  return 2 * (zero.at(-1) - zero[0]) / (zero.length - 1);
+}
+/// The extremes after the release.
+const peaks = (x, y) => extremes(x, y).slice(1, 1 + PEAKS).map((p) => p.y);
+
+function compareDecay(simulate) {
+  const run = simulate('box_decay', { until: REST }), theory = heaveDecay(BOX, OFFSET, REST);
+  const heave = run.column('box.heave_m'), own = peaks(run.time, heave), expected = peaks(theory.t, theory.z);
+  const times = [period(run.time, heave), period(theory.t, theory.z)], mm = (z) => (1000 * z).toFixed(2);
+  return {
+    bars: [atMost('period off linear theory', times[0] / times[1] - 1, 0.03, '%'), ...own.map((z, k) =>
+      holds(`extreme ${k + 1} [mm]`, mm(z), `within 10 % of ${mm(expected[k])}`, Math.abs(z / expected[k] - 1) <= 0.1))],
+    notes: [`Period ${times[0].toFixed(3)} s, by theory ${times[1].toFixed(3)} s.`],
+    plot: { panels: [{ x: 't [s]', y: 'heave [m]', xrange: [0, REST], curves: [
+      { label: 'linear theory', x: theory.t, y: theory.z, style: 'thin', colour: '#c4501b' },
+      { label: 'simulated', x: run.time, y: heave }] }] },
+  };
+}
+
 export const studies = [{
   name: 'box_heave',
   title: 'Box in forced heave, 2-D',
   reference: 'linear potential theory (Lee 1995), computed here',
-  compare,
+  compare: compareForced,
+}, {
+  name: 'box_decay',
+  title: 'Heave decay of a floating box, 2-D',
+  reference: 'linear potential theory (Lee 1995; Cummins 1962), computed here',
+  compare: compareDecay,
 }];
