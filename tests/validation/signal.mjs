@@ -57,6 +57,15 @@ export function crossings(xs, ys, level = 0, upwards = false) {
   return found;
 }
 
+/// Period of a swing about 0, from its first to its last crossing before `until`.
+export function swingPeriod(xs, ys, until = Infinity) {
+  const zero = crossings(xs, ys).filter((x) => x < until);
+  return 2 * (zero.at(-1) - zero[0]) / (zero.length - 1);
+}
+
+/// The first `count` extremes after the start, which is one itself.
+export const swingPeaks = (xs, ys, count) => extremes(xs, ys).slice(1, 1 + count).map((p) => p.y);
+
 /// Least squares fit of c0 + c1 x.
 export function line(xs, ys) {
   const mx = mean(xs), my = mean(ys);

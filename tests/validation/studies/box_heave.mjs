@@ -1,7 +1,7 @@
 // A box in heave against linear theory: its added mass and the waves that it radiates, and how it comes to rest.
 import { atMost, holds } from '../harness.mjs';
 import { GRAVITY, heaveDecay, heavingBox } from '../potential.mjs';
-import { crossings, extremes, fit, mean, waveNumber, window } from '../signal.mjs';
+import { fit, mean, swingPeaks, swingPeriod, waveNumber, window } from '../signal.mjs';
 
 const T = 0.9, AMPLITUDE = 0.01, END = 5 * T, OMEGA = 2 * Math.PI / T;
 const BOX = { breadth: 0.3, draft: 0.1, depth: 0.4, density: 1000 };
@@ -43,17 +43,10 @@ function compareForced(simulate) {
 
 const OFFSET = 0.02, REST = 2, PEAKS = 3;
 
-function period(x, y) {
-  const zero = crossings(x, y);
-  return 2 * (zero.at(-1) - zero[0]) / (zero.length - 1);
-}
-/// The extremes after the release.
-const peaks = (x, y) => extremes(x, y).slice(1, 1 + PEAKS).map((p) => p.y);
-
 function compareDecay(simulate) {
   const run = simulate('box_decay', { until: REST }), theory = heaveDecay(BOX, OFFSET, REST);
-  const heave = run.column('box.heave_m'), own = peaks(run.time, heave), expected = peaks(theory.t, theory.z);
-  const times = [period(run.time, heave), period(theory.t, theory.z)], mm = (z) => (1000 * z).toFixed(2);
+  const heave = run.column('box.heave_m'), own = swingPeaks(run.time, heave, PEAKS), expected = swingPeaks(theory.t, theory.z, PEAKS);
+  const times = [swingPeriod(run.time, heave), swingPeriod(theory.t, theory.z)], mm = (z) => (1000 * z).toFixed(2);
   return {
     bars: [atMost('period off linear theory', times[0] / times[1] - 1, 0.03, '%'), ...own.map((z, k) =>
       holds(`extreme ${k + 1} [mm]`, mm(z), `within 10 % of ${mm(expected[k])}`, Math.abs(z / expected[k] - 1) <= 0.1))],
