@@ -137,6 +137,7 @@ static const char *const PASS_NAMES[CLOCK_COUNT] = {
     [CLOCK_GRADIENT] = "gradient",
     [CLOCK_NO_SLIP] = "no_slip",
     [CLOCK_TURBULENCE] = "turbulence",
+    [CLOCK_SHIFTING] = "shifting",
     [CLOCK_MOMENTUM] = "momentum",
     [CLOCK_DENSITY] = "density",
     [CLOCK_LOADS] = "loads",

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-enum { BENCH_GROUPS_LEAST = 5, BENCH_GROUPS_MAX = 25, BENCH_PASSES_MAX = 16 };
+enum { BENCH_GROUPS_LEAST = 5, BENCH_GROUPS_MAX = 25, BENCH_PASSES_MAX = 20 };
 
 typedef struct BenchOptions {
     const char *scene;      ///< "still", "dam" or "ship"

@@ -22,6 +22,9 @@ enum { GRADIENT_BYTES = 25 };
 /// Per fluid particle where turbulence keeps a stress; per dummy where walls hold the water.
 enum { STRESS_BYTES = 25, MIRROR_BYTES = 13 };
 
+/// Per fluid particle where particles are shifted.
+enum { SHIFT_BYTES = 17 };
+
 void effects_name(EffectPlan effects[EFFECT_COUNT])
 {
     static const EffectPlan table[EFFECT_COUNT] = {
@@ -82,6 +85,9 @@ static void choose_pairs(const Scene *scene, Plan *plan, const Fill *fill)
         water ? "fluid.turbulence = %s" : "no water particles", sps ? "sps" : "none");
     set(plan, EFFECT_NO_SLIP, water && holds, MIRROR_BYTES * (size_t)dummies,
         water ? "fluid.walls = %s" : "no water particles", holds ? "no_slip" : "slip");
+    set(plan, EFFECT_SHIFTING, water && fluid->shifting > 0,
+        SHIFT_BYTES * (size_t)fill->fluid_count,
+        water ? "fluid.shifting = %g" : "no water particles", fluid->shifting);
     set(plan, EFFECT_MOVING_BOUNDARIES, moving > 0, 0,
         moving ? "%d dummies of ring, piston or bodies move" : "nothing but water moves", moving);
     set(plan, EFFECT_WALLS, fill->wall_count > 0, (size_t)FIXED_BYTES * (size_t)fill->wall_count,

@@ -40,8 +40,8 @@ int energy_columns(const Scene *scene, const State *state, EnergyColumn *column)
     // velocities are half a step old; the last step says how they go on
     double gained = 0.5 * w.last_kick + now.kinetic - start.kinetic + now.potential -
                     start.potential + now.compressible - start.compressible;
-    double given =
-        w.viscosity + w.diffusion + w.ring + w.piston + w.bodies + w.walls + w.zone + w.limits;
+    double given = w.viscosity + w.diffusion + w.ring + w.piston + w.bodies + w.walls + w.zone +
+                   w.shifting + w.limits;
     const struct {
         bool present;
         EnergyColumn column;
@@ -60,6 +60,7 @@ int energy_columns(const Scene *scene, const State *state, EnergyColumn *column)
         {budget && (scene->fluid.alpha > 0 || scene->fluid.viscosity > 0),
          {"viscosity_j", w.viscosity}},
         {budget && scene->fluid.delta > 0, {"diffusion_j", w.diffusion}},
+        {budget && scene->fluid.shifting > 0, {"shifting_j", w.shifting}},
         {budget, {"limits_j", w.limits}},
         {budget, {"residual_j", gained - given}},
     };

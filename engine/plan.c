@@ -284,7 +284,8 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
                       (scene->fluid.gradient == GRADIENT_CORRECTED ? PAIR_GRADIENT : 0) |
                       (scene->fluid.viscosity > 0 ? PAIR_LAMINAR : 0) |
                       (scene->fluid.turbulence == TURBULENCE_SPS ? PAIR_TURBULENCE : 0) |
-                      (scene->fluid.walls == WALLS_NO_SLIP ? PAIR_NO_SLIP : 0);
+                      (scene->fluid.walls == WALLS_NO_SLIP ? PAIR_NO_SLIP : 0) |
+                      (scene->fluid.shifting > 0 ? PAIR_SHIFTING : 0);
     effects_name(plan->effects);
     TRY(reach_of_walls(scene, plan, error));
     TRY(mesh_bodies(scene, plan, error));

@@ -65,6 +65,7 @@ typedef struct Fluid {
     double viscosity;          ///< molecular, kinematic [m^2/s]; 0 = none
     TurbulenceKind turbulence; ///< stresses of what is not resolved; needs a viscosity
     WallKind walls;            ///< whether walls and bodies hold the water; needs a viscosity
+    double shifting;           ///< of particles: A of physics/shift.h [-]; 0 = none
     double sound_speed;        ///< c0 [m/s]; 0 = by the rule (see plan.h)
     double sound_speed_ratio;  ///< rule: c0 = ratio * largest expected speed, 7 to 20
     double gravity;            ///< [m/s^2], downwards

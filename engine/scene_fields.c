@@ -45,6 +45,7 @@ static const JsonField FLUID_FIELDS[] = {
     {"viscosity_m2s", FIELD_NUMBER, IN_CASE(scene.fluid.viscosity), .max = 1, .unit = "m2/s"},
     {"turbulence", FIELD_CHOICE, IN_CASE(scene.fluid.turbulence), .choices = {"none", "sps"}},
     {"walls", FIELD_CHOICE, IN_CASE(scene.fluid.walls), .choices = {"slip", "no_slip"}},
+    {"shifting", FIELD_NUMBER, IN_CASE(scene.fluid.shifting), .max = 10},
     {"sound_speed_ms", FIELD_NUMBER, IN_CASE(scene.fluid.sound_speed), .max = 5000, .unit = "m/s"},
     {"sound_speed_ratio", FIELD_NUMBER, IN_CASE(scene.fluid.sound_speed_ratio), .min = 7, .max = 20},
     {"gravity_ms2", FIELD_NUMBER, IN_CASE(scene.fluid.gravity), .min = 0.1, .max = 100, .unit = "m/s2"},

@@ -27,6 +27,7 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     s.sound_speed = plan->sound_speed;
     s.alpha = scene->fluid.alpha;
     s.viscosity = scene->fluid.viscosity;
+    s.shifting = scene->fluid.shifting;
     s.delta = scene->fluid.delta;
     s.gravity = scene->fluid.gravity;
     s.level = scene->fluid.level;

@@ -207,6 +207,7 @@ static void share_clocks(const Plan *plan, State *state)
     e[EFFECT_LAMINAR] += c[CLOCK_MOMENTUM] * state->pair_cost[3];
     e[EFFECT_TURBULENCE] += c[CLOCK_TURBULENCE] + c[CLOCK_MOMENTUM] * state->pair_cost[4];
     e[EFFECT_NO_SLIP] += c[CLOCK_NO_SLIP] + c[CLOCK_MOMENTUM] * state->pair_cost[5];
+    e[EFFECT_SHIFTING] += c[CLOCK_SHIFTING];
     e[EFFECT_WALLS] += c[CLOCK_EXTRAPOLATE];
     e[EFFECT_MOVING_BOUNDARIES] += c[CLOCK_EXTRAPOLATE_MOVING] + c[CLOCK_DUMMIES];
     e[EFFECT_RING] += c[CLOCK_RING];

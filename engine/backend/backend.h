@@ -28,6 +28,7 @@ enum {
     PAIR_LAMINAR = 1 << 3,    ///< molecular viscosity
     PAIR_TURBULENCE = 1 << 4, ///< with PAIR_LAMINAR: stresses of what is not resolved
     PAIR_NO_SLIP = 1 << 5,    ///< with PAIR_LAMINAR: dummies hold the water
+    PAIR_SHIFTING = 1 << 6,
 };
 
 /// Where particles are at t = 0. All arrays are borrowed during create.
@@ -51,6 +52,7 @@ typedef struct BackendSetup {
     double spacing, smoothing_length, particle_mass; ///< [m], [m], [kg]
     double rest_density, sound_speed, alpha, delta;
     double viscosity;      ///< kinematic [m^2/s]
+    double shifting;       ///< A of physics/shift.h [-]
     double gravity, level; ///< [m/s^2], still-water z [m]
     double largest_travel; ///< expected per step, for the skin [m]
     unsigned pair_mask;    ///< PAIR_… bits
@@ -121,6 +123,7 @@ typedef struct FluidWorks {
     double ring, piston, bodies; ///< pressures of moving dummies times their velocities
     double walls;     ///< all else between water and dummies: slip through the extrapolation
     double zone;      ///< relaxation
+    double shifting;  ///< lifting by particle shifting
     double limits;    ///< tension floor and barrier
     double pressure;  ///< of water on water: the error of stepping in time
     double last_kick; ///< kinetic energy that the last step gave [J]
@@ -134,6 +137,7 @@ typedef enum BackendClock {
     CLOCK_GRADIENT,
     CLOCK_NO_SLIP,    ///< velocities that viscosity meets in dummies
     CLOCK_TURBULENCE, ///< strain and stress
+    CLOCK_SHIFTING,
     CLOCK_MOMENTUM,
     CLOCK_DENSITY,
     CLOCK_LOADS,

@@ -119,6 +119,7 @@ static Sweep make_sweep(Backend *b)
     // 5 alpha_D/h^2 of the slope, (2h)^2 of the offsets, V = m/rho0
     sweep.moment_factor = (float)(20 * kernel_constant(s->smoothing_length, s->dimensions) *
                                   s->particle_mass / s->rest_density);
+    sweep.shift = shift_constants(s->shifting, (double)sweep.moment_factor, s->dimensions);
     return sweep;
 }
 
@@ -367,6 +368,10 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
     if (EFFECTS_BUILT && (b->setup.pair_mask & PAIR_TURBULENCE)) {
         pairs_find_stresses(b);
         LAP(CLOCK_TURBULENCE);
+    }
+    if (EFFECTS_BUILT && (b->setup.pair_mask & PAIR_SHIFTING)) {
+        pairs_shift(b);
+        LAP(CLOCK_SHIFTING);
     }
     if (EFFECTS_BUILT && b->setup.works) {
         works_before_momentum(b);

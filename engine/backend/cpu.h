@@ -116,6 +116,8 @@ void pairs_correct_gradients(Backend *backend);
 void pairs_mirror_velocities(Backend *backend);
 /// Stresses of what is not resolved, at the present places and velocities.
 void pairs_find_stresses(Backend *backend);
+/// Velocities of particle shifting, at the present places and velocities.
+void pairs_shift(Backend *backend);
 /// Share of a pair effect's bit in its sweep; see backend.h.
 double pairs_cost(Backend *backend, unsigned bit);
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);

@@ -24,6 +24,8 @@ bool pairs_create(Backend *b, Arena *arena, Error *error)
         TRY(take_floats(&fluid->correction[t], fluid, "particles.correction", arena, error));
     for (int t = 0; t < 6 && (mask & PAIR_TURBULENCE); t++)
         TRY(take_floats(&fluid->stress[t], fluid, "particles.stress", arena, error));
+    for (int k = 0; k < SHIFT_SUMS && (mask & PAIR_SHIFTING); k++)
+        TRY(take_floats(&fluid->shift[k], fluid, "particles.shift", arena, error));
     for (int set = 0; set < 2 && (mask & PAIR_NO_SLIP); set++)
         for (int a = 0; a < 3 && walls[set]->count; a++)
             TRY(take_floats(&walls[set]->mirror[a], walls[set], "particles.mirror", arena, error));
@@ -53,6 +55,18 @@ void pairs_correct_gradients(Backend *b)
 #pragma omp parallel for schedule(static) num_threads(b->setup.threads)
     for (int begin = 0; begin < clusters; begin += CHUNK)
         b->table->invert(&b->sweep, begin, begin + CHUNK < clusters ? begin + CHUNK : clusters);
+}
+
+void pairs_shift(Backend *b)
+{
+    int clusters = b->fluid.cluster_count;
+    for (int k = 0; k < SHIFT_SUMS; k++)
+        memset(b->fluid.shift[k], 0, (size_t)clusters * CLUSTER * sizeof(float));
+    cpu_sweep_fluid(b, b->table->shift_sums);
+#pragma omp parallel for schedule(static) num_threads(b->setup.threads)
+    for (int begin = 0; begin < clusters; begin += CHUNK)
+        b->table->shift_velocities(&b->sweep, begin,
+                                   begin + CHUNK < clusters ? begin + CHUNK : clusters);
 }
 
 void pairs_mirror_velocities(Backend *b)

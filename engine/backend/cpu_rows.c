@@ -56,13 +56,17 @@ void rows_note_velocity(Rows *rows, const ParticleSet *set, int row)
     VelocitySpan *span = &rows->span[row];
     int begin = set->row_begin[row] * CLUSTER, end = set->row_begin[row + 1] * CLUSTER;
     for (int a = 0; a < 3; a++) {
-        const float *v = set->field[VELOCITY_X + a];
+        const float *v = set->field[VELOCITY_X + a], *shift = set->shift[a];
         float low = span->min[a], high = span->max[a];
         // padding has no velocity: the span may only grow by it
 #pragma omp simd reduction(min : low) reduction(max : high)
         for (int i = begin; i < end; i++) {
             low = v[i] < low ? v[i] : low;
             high = v[i] > high ? v[i] : high;
+        }
+        for (int i = begin; i < end && shift; i++) {
+            low = minf(low, v[i] + shift[i]);
+            high = maxf(high, v[i] + shift[i]);
         }
         span->min[a] = low;
         span->max[a] = high;

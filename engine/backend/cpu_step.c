@@ -168,6 +168,20 @@ static void block_drift(const Backend *b, ParticleSet *f, int begin, int end, fl
     }
 }
 
+/// What shifting adds to the path of a step's half; padding has no shift.
+static void block_shift(const Backend *b, ParticleSet *f, int begin, int end, float dt)
+{
+    float scale = (float)(dt / b->grid.unit);
+    for (int a = 0; a < 3; a++) {
+        int32_t *p = f->position[a];
+        const float *shift = f->shift[a];
+        for (int i = begin; i < end; i++) {
+            float step = shift[i] * scale;
+            p[i] += (int32_t)(step + (step < 0 ? -0.5f : 0.5f));
+        }
+    }
+}
+
 /// The last barrier at fixed planes: a jet one particle thin carries no pressure that dummies could
 /// extrapolate, and would seep through. What is up to two spacings behind a plane goes back onto it
 /// and loses its speed into it; what flew over the walls stays out.
@@ -305,6 +319,7 @@ static bool block_finish(Backend *b, int begin, int end, float dt)
         excess[i] = next < least ? least : next;
     }
     block_drift(b, f, begin, end, 0.5f * dt);
+    if (EFFECTS_BUILT && f->shift[0]) block_shift(b, f, begin, end, 0.5f * dt);
     bool jumped = block_barrier(b, f, begin, end, dt);
     block_pressure(b, f, begin, end);
     return jumped;
@@ -405,6 +420,7 @@ static double kick_row(Backend *b, int row, const Advance *advance)
     float dt = (float)advance->dt;
     double zone = 0;
     const bool diffuse = EFFECTS_BUILT && (b->setup.pair_mask & PAIR_DIFFUSION) != 0;
+    const bool shifted = EFFECTS_BUILT && f->shift[0];
     const int every = advance->zone.every;
     bool relaxed = EFFECTS_BUILT && advance->zone.width > 0 && (row + advance->step) % every == 0;
     int row_end = f->row_begin[row + 1] * CLUSTER, end;
@@ -417,6 +433,7 @@ static double kick_row(Backend *b, int row, const Advance *advance)
             zone += cpu_clock() - start;
         }
         block_drift(b, f, begin, end, 0.5f * dt);
+        if (shifted) block_shift(b, f, begin, end, 0.5f * dt);
         if (diffuse) block_dynamic(b, f, begin, end);
         memset(f->rate[0] + begin, 0, (size_t)(end - begin) * sizeof(float));
     }

@@ -222,6 +222,8 @@ const SweepTable *AT_LEVEL(sweep_table)(void)
         AT_LEVEL(viscous_mirror),
         AT_LEVEL(viscous_strain),
         AT_LEVEL(viscous_stress),
+        AT_LEVEL(shift_sums),
+        AT_LEVEL(shift_velocities),
     };
     return &table;
 }

@@ -170,7 +170,7 @@ void works_after_step(Backend *b, double dt)
     double tait = b->sweep.tait_b, rho0 = b->setup.rest_density, mass = b->setup.particle_mass;
     double floor = b->excess_floor;
     double factor = dt * b->sweep.constants.density_factor, unit = b->grid.unit;
-    double inner = 0, plain = 0, full = 0, clipped = 0, speed2 = 0, lift = 0;
+    double inner = 0, plain = 0, full = 0, clipped = 0, speed2 = 0, lift = 0, shifted = 0;
     for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
         if (f->id[i] < 0) continue;
         // de/ds = p rho0/rho^2 halfway between the pressures that push before and after the step
@@ -187,9 +187,12 @@ void works_after_step(Backend *b, double dt)
             speed2 += (double)f->field[VELOCITY_X + a][i] * f->field[VELOCITY_X + a][i] -
                       (double)w->velocity[a][i] * w->velocity[a][i];
         lift += unit * ((double)f->position[2][i] - w->height[i]) - 0.5 * dt * w->velocity[2][i];
+        if (f->shift[2]) shifted += dt * f->shift[2][i];
     }
     w->sums.pressure += mass * factor * inner;
     w->sums.walls += mass * factor * (plain - inner);
     w->sums.diffusion += mass * factor * (full - plain);
-    w->sums.limits += mass * (clipped + 0.5 * speed2 + b->setup.gravity * lift);
+    w->sums.shifting += mass * b->setup.gravity * shifted;
+    // half of the shift came before the height was noted
+    w->sums.limits += mass * (clipped + 0.5 * speed2 + b->setup.gravity * (lift - 0.5 * shifted));
 }

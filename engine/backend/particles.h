@@ -59,6 +59,7 @@ typedef struct ParticleSet {
     float *rate[3];           ///< sums of the sweeps; fixed: none
     float *correction[6];     ///< fluid, with PAIR_GRADIENT: B of physics/gradient.h
     float *stress[6];         ///< fluid, with PAIR_TURBULENCE: tau/rho^2 of physics/viscous.h
+    float *shift[4];          ///< fluid, with PAIR_SHIFTING: u of physics/shift.h [m/s], fullness
     float *mirror[3];         ///< dummies, with PAIR_NO_SLIP: velocity that viscosity meets [m/s]
     int32_t *target[3];       ///< moving: places at the end of the step [unit]
     Boxes boxes;

@@ -1,10 +1,11 @@
 /// The neighbour sweeps: loops of physics/pair.h over lists of clusters. cpu_gradient.c,
-/// cpu_near.c, cpu_step.c, cpu_sweep.c and cpu_viscous.c are compiled once per instruction level;
-/// each build exports one SweepTable and the best one is chosen at start.
+/// cpu_near.c, cpu_shift.c, cpu_step.c, cpu_sweep.c and cpu_viscous.c are compiled once per
+/// instruction level; each build exports one SweepTable and the best one is chosen at start.
 #ifndef FAIRLEAD_BACKEND_SWEEP_H
 #define FAIRLEAD_BACKEND_SWEEP_H
 
 #include "backend/particles.h"
+#include "physics/shift.h"
 #include "physics/viscous.h"
 
 typedef struct Sweep {
@@ -22,6 +23,7 @@ typedef struct Sweep {
     int dimensions;
     float moment_factor; ///< of M, summed with lengths over 2h: 20 alpha_D V [-]
     ViscousConstants viscous;
+    ShiftConstants shift;
 } Sweep;
 
 /// Of clusters begin..end.
@@ -69,6 +71,9 @@ typedef struct SweepTable {
     /// Rates of strain into fluid->stress, which was zero, like the accelerations; and the stresses
     /// they make, cluster by cluster.
     SweepFunction strain, stress;
+    /// Sums of concentration and fullness into fluid->shift, which was zero, like the
+    /// accelerations; and the velocities they make, cluster by cluster.
+    SweepFunction shift_sums, shift_velocities;
 } SweepTable;
 
 #if defined(__x86_64__)
@@ -100,6 +105,8 @@ void AT_LEVEL(viscous_loads)(const Sweep *, int begin, int end);
 void AT_LEVEL(viscous_mirror)(const Sweep *, int set, int begin, int end);
 void AT_LEVEL(viscous_strain)(const Sweep *, int begin, int end);
 void AT_LEVEL(viscous_stress)(const Sweep *, int begin, int end);
+void AT_LEVEL(shift_sums)(const Sweep *, int begin, int end);
+void AT_LEVEL(shift_velocities)(const Sweep *, int begin, int end);
 void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
                           int end, float reach_squared, bool exact);
 #endif

@@ -44,6 +44,7 @@ static bool belongs_to_an_effect(const char *what)
                                         "waves",
                                         "particles.correction",
                                         "particles.stress",
+                                        "particles.shift",
                                         "particles.mirror"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(what, names[i])) return true;
@@ -128,6 +129,7 @@ TEST(still_water_clocks_no_time_for_what_it_leaves_out)
                                           CLOCK_GRADIENT,
                                           CLOCK_NO_SLIP,
                                           CLOCK_TURBULENCE,
+                                          CLOCK_SHIFTING,
                                           CLOCK_LOADS,
                                           CLOCK_DUMMIES,
                                           CLOCK_RING,

@@ -78,12 +78,13 @@ TEST(a_plan_tells_the_memory_of_a_tank_within_a_tenth)
     compare_with_plan(&scene);
 }
 
-TEST(a_plan_tells_the_memory_of_eddies_and_walls_that_hold_within_a_tenth)
+TEST(a_plan_tells_the_memory_of_eddies_walls_that_hold_and_shifting_within_a_tenth)
 {
     Scene scene = tank_3d();
     scene.fluid.viscosity = 1e-6;
     scene.fluid.turbulence = TURBULENCE_SPS;
     scene.fluid.walls = WALLS_NO_SLIP;
+    scene.fluid.shifting = 2;
     compare_with_plan(&scene);
 }
 
