@@ -37,6 +37,34 @@ TEST(a_command_moves_the_ring_within_one_step)
     finish(run);
 }
 
+/// Whether a plan warns of the lattice's brake.
+static bool warns_of_drift(const Scene *scene)
+{
+    EngineOptions options = {.threads = 1, .backend = "cpu"};
+    Plan plan;
+    CHECK(plan_build(scene, &options, &plan, &error));
+    bool told = strstr(plan.warnings, "body hull may drift") != NULL;
+    plan_destroy(&plan);
+    return told;
+}
+
+TEST(a_plan_warns_of_the_lattice_where_a_body_may_drift)
+{
+    Scene scene = tank_2d(0.05);
+    scene.body_count = 1;
+    scene.bodies[0] = body_scene_default();
+    scene.bodies[0].size = vec3(0.4, 1, 0.3);
+    scene.bodies[0].draft = 0.15;
+    scene.bodies[0].position = vec3(0, 0, NAN);
+    snprintf(scene.bodies[0].name, sizeof scene.bodies[0].name, "hull");
+    CHECK(warns_of_drift(&scene));
+    scene.fluid.gradient = GRADIENT_CORRECTED;
+    CHECK(!warns_of_drift(&scene));
+    scene.fluid.gradient = GRADIENT_PLAIN;
+    scene.bodies[0].freedoms[0].kind = FREEDOM_FIXED; // sway is fixed in a plane
+    CHECK(!warns_of_drift(&scene));
+}
+
 TEST(thread_counts_give_the_same_bits)
 {
     double row[2][64];
