@@ -22,6 +22,9 @@ export function readTable(path) {
   } };
 }
 
+/// A case of cases/validation, as it is written.
+export const sceneOf = (name) => JSON.parse(readFileSync(join(ROOT, 'cases/validation', `${name}.json`), 'utf8'));
+
 /// Reference data, a file of tests/data.
 export const reference = (file) => readTable(join(ROOT, 'tests/data', file));
 

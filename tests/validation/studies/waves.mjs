@@ -1,13 +1,9 @@
 // Regular waves over two wave lengths of a 2-D basin or flume, and the same wave over headings, against stream-function
 // waves that carry nothing (docs/physics.md, waves).
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
-import { atMost, reference, ROOT } from '../harness.mjs';
+import { atMost, reference, sceneOf } from '../harness.mjs';
 import { fit, largest, mean, smallest, window } from '../signal.mjs';
 
 const PERIODS = 6; // at the end of a run, that are looked at
-
-const sceneOf = (name) => JSON.parse(readFileSync(join(ROOT, 'cases/validation', `${name}.json`), 'utf8'));
 
 /// The row of the reference waves with this height and period.
 function referenceWave({ height_m: height, period_s: period }, depth) {
