@@ -252,8 +252,8 @@ static void warn_of_travel(const Scene *scene, Plan *plan)
     size_t used = strlen(plan->warnings), size = sizeof plan->warnings;
     if (plan->wall_reach <= first) return;
     snprintf(plan->warnings + used, size - used,
-             "%spiston travels %.3g m to second order, %.3g m to first: water too shallow for it; "
-             "lower waves, or waves.piston_order 1",
+             "%spiston travels %.3g m to second order, %.3g m to first: water too shallow for it "
+             "(lower waves, or waves.piston_order 1)",
              used ? "; " : "", plan->wall_reach, first);
 }
 
@@ -270,8 +270,8 @@ static void warn_of_drift(const Scene *scene, Plan *plan)
         size_t used = strlen(plan->warnings), size = sizeof plan->warnings;
         if (!drifts) continue;
         snprintf(plan->warnings + used, size - used,
-                 "%sbody %s may drift: the lattice of plain gradients brakes slow drift; "
-                 "fluid.gradient \"corrected\" does far less, at 1.8 times the cost of a step",
+                 "%sbody %s may drift: the lattice of plain gradients brakes slow drift "
+                 "(fluid.gradient \"corrected\" does far less, at 1.8 times the cost of a step)",
                  used ? "; " : "", body->name);
         return;
     }
