@@ -487,7 +487,9 @@ void AT_LEVEL(step_advance)(Backend *b, const Advance *advance, ParticleSums *su
     rows_move(&b->rows, &b->grid, 0.5 * advance->dt);
     LAP(CLOCK_INTEGRATE);
     if (EFFECTS_BUILT && advance->skin) {
-        hulls_hold(b, advance, sums->largest_speed);
+        // shifts go with the speed before the kick, which may have been the larger one
+        double shift = b->fluid.shift[0] ? 2 * (double)SHIFT_MOST : 0;
+        hulls_hold(b, advance, (1 + shift) * sums->largest_speed);
         LAP(CLOCK_LOADS);
     }
     if (EFFECTS_BUILT && b->setup.works) {

@@ -14,6 +14,8 @@
 
 #include "lane.h"
 
+#define SHIFT_MOST 0.1f ///< largest u over the speed [-]
+
 enum { SHIFT_SUMS = 4 }; ///< three of the concentration's gradient, one of the fullness
 
 typedef struct ShiftConstants {
@@ -31,15 +33,15 @@ FN ShiftConstants shift_constants(double coefficient, double moment_factor, int 
     return c;
 }
 
-/// u of one particle over its sums of s^3 x_ik/2h [m/s]. u is at most a tenth of the speed.
+/// u of one particle over its sums of s^3 x_ik/2h [m/s]. u is at most SHIFT_MOST of the speed.
 /// @param length2   square of those sums [-]    @param fullness  sum of s^3 (r/2h)^2 [-]
 /// @param speed2    [m^2/s^2]
 FN LANE shift_factor(LANE length2, LANE fullness, LANE speed2, ShiftConstants c)
 {
-    const float low = 0.985f, most = 0.1f;
+    const float low = 0.985f;
     LANE share = lane_above_zero(c.fullness * fullness - low) * (1.0f / (1.0f - low));
     share = 1.0f - lane_above_zero(1.0f - share);
-    LANE over = lane_above_zero(c.gradient * lane_sqrt(length2) * (1.0f / most) - 1.0f);
+    LANE over = lane_above_zero(c.gradient * lane_sqrt(length2) * (1.0f / SHIFT_MOST) - 1.0f);
     return share * c.gradient * lane_sqrt(speed2) / (1.0f + over);
 }
 

@@ -165,8 +165,8 @@ TEST(shifts_have_the_same_bits_for_any_number_of_threads)
 
 /// What six periods leave of a standing wave.
 typedef struct Outcome {
-    double height;  ///< of the last crest over the first [-]
-    double rise;    ///< of the mean potential energy, as level, in spacings
+    double height; ///< of the last crest over the first [-]
+    double rise;   ///< of the mean potential energy, as level, in spacings
 } Outcome;
 
 /// Mean h abs(grad C) of the water that no wall and no surface is near [-].
