@@ -144,6 +144,31 @@ TEST(a_step_goes_by_velocity_and_shift)
     arena_destroy(&arena);
 }
 
+TEST(lists_last_by_how_shifted_particles_part)
+{
+    int count = disorder(2, 1), beyond = 0;
+    BackendSetup s = shifting_setup(2);
+    Arena arena = arena_create(0);
+    Backend *b = create(&s, count, &arena);
+    Advance advance = {.dt = 1e-4};
+    ParticleSums sums;
+    CHECK(backend_cpu()->forces(b, NULL, NULL, &error));
+    backend_cpu()->advance(b, &advance, &sums);
+    for (int row = 0; row < b->grid.row_count; row++) {
+        const VelocitySpan *span = &b->rows.span[row];
+        for (int i = b->fluid.row_begin[row] * CLUSTER; i < b->fluid.row_begin[row + 1] * CLUSTER;
+             i++)
+            for (int a = 0; a < 3 && b->fluid.id[i] >= 0; a++) {
+                float v = b->fluid.field[VELOCITY_X + a][i], path = v + b->fluid.shift[a][i];
+                CHECK(span->min[a] <= path && path <= span->max[a]);
+                beyond += path == span->min[a] || path == span->max[a];
+            }
+    }
+    CHECK(beyond > 0); // some are the outermost
+    backend_cpu()->destroy(b);
+    arena_destroy(&arena);
+}
+
 TEST(shifts_have_the_same_bits_for_any_number_of_threads)
 {
     static float shift[2][2 * N];
