@@ -4,8 +4,8 @@
 ///     dx_i/dt = v_i + u_i,   u_i = -A abs(v_i) h grad C_i,   grad C_i = sum_k V_k grad_i W_ik,
 ///
 /// dummies included. Water at rest is left alone, for u goes with the speed. Only the path is
-/// shifted, not what a particle carries. A shift across the surface would blow the water up and
-/// eat waves (measured, docs/physics.md): u fades between 1 and 0.985 of the fullness
+/// shifted, not what a particle carries. A shift towards the surface blows the water up
+/// (measured, docs/physics.md): u fades between 1 and 0.985 of the fullness
 /// tr(M_i)/d, M as in gradient.h; within 2h of a flat surface it falls from 1 to 0.5.
 /// Sources: Lind et al. (2012), doi:10.1016/j.jcp.2011.10.027; with the particle's own speed,
 /// Skillen et al. (2013), doi:10.1016/j.cma.2013.05.017.
