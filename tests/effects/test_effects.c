@@ -147,6 +147,21 @@ TEST(still_water_clocks_no_time_for_what_it_leaves_out)
     finish(run);
 }
 
+TEST(viscosity_and_diffusion_have_shares_of_their_sweeps)
+{
+    double largest[2] = {0, 0}; // of five starts: other work may hide one
+    for (int k = 0; k < 5; k++) {
+        Scene scene = tank_2d(0.05);
+        Run *run = start(&scene, 2);
+        for (int i = 0; i < 2; i++) {
+            CHECK(run->state->pair_cost[i] >= 0 && run->state->pair_cost[i] < 1);
+            largest[i] = maxd(largest[i], run->state->pair_cost[i]);
+        }
+        finish(run);
+    }
+    CHECK(largest[0] > 0.01 && largest[1] > 0.01);
+}
+
 TEST(what_is_called_for_is_called_kept_and_clocked)
 {
     // the counters above count
