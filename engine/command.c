@@ -68,6 +68,11 @@ bool command_check(const Scene *scene, const Command *command, const WaveTarget 
                          "wave.height_m = %.9g: must be >= %.9g and <= %.4g m, twice the breaking "
                          "height at a period of %.9g s",
                          sea.height, waves->height_limits.min, most, sea.period);
+    if (!waves_may_run(scene, &sea))
+        return error_set(error, ERROR_INPUT,
+                         "wave.period_s = %.9g: must be longer: against the current "
+                         "(waves.current.speed_ms %.9g) no such wave can run",
+                         sea.period, waves->current.speed);
     *target = sea;
     return true;
 }

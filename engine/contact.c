@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "waves.h"
+
 /// zeta: a ball rebounds with a third of its speed, exp(-pi zeta/sqrt(1 - zeta^2)).
 static const double DAMPING_RATIO = 0.33;
 
@@ -65,7 +67,7 @@ static void touch_domain(const Scene *scene, const Body *body, const BodyGeometr
 {
     const Domain *d = &scene->domain;
     bool waves = scene->waves.kind != WAVES_NONE;
-    bool ring = d->kind == DOMAIN_BASIN && waves, piston = d->kind == DOMAIN_FLUME && waves;
+    bool ring = scene_has_ring(scene), piston = d->kind == DOMAIN_FLUME && waves;
     touch_plane(body, geometry, d->min, vec3(0, 0, 1), INFINITY, touches);
     if (ring) return;
     if (!piston) touch_plane(body, geometry, d->min, vec3(1, 0, 0), d->max.z, touches);

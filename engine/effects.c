@@ -9,6 +9,7 @@
 #include "line_water.h"
 #include "slamming.h"
 #include "wave_quality.h"
+#include "waves.h"
 
 /// Bytes that one more particle of each set takes: its slots, the checkpoint, its share of the
 /// lists of neighbours; and what every run takes. Measured: test_memory compares.
@@ -98,14 +99,15 @@ static void choose_pairs(const Scene *scene, Plan *plan, const Fill *fill)
 static void choose_waves(const Scene *scene, Plan *plan, const Fill *fill)
 {
     bool waves = scene->waves.kind != WAVES_NONE;
-    bool basin = waves && scene->domain.kind == DOMAIN_BASIN;
+    bool basin = scene_has_ring(scene);
+    const char *why = waves ? "waves" : "a current";
     bool flume = waves && scene->domain.kind == DOMAIN_FLUME;
-    const char *off = !waves  ? "waves.kind is none"
-                      : basin ? "waves of a basin come from its ring"
-                              : "waves of a flume come from its piston";
+    const char *off = !waves && !basin ? "waves.kind is none"
+                      : basin          ? "waves of a basin come from its ring"
+                                       : "waves of a flume come from its piston";
     set(plan, EFFECT_RING, basin, (size_t)MOVING_BYTES * (size_t)fill->ring_count,
-        basin ? "waves in a basin: %d moving dummies" : off, fill->ring_count);
-    set(plan, EFFECT_ZONE, basin, 0, basin ? "waves in a basin: %.3g m wide" : off,
+        basin ? "%s in a basin: %d moving dummies" : off, why, fill->ring_count);
+    set(plan, EFFECT_ZONE, basin, 0, basin ? "%s in a basin: %.3g m wide" : off, why,
         plan->zone_width);
     set(plan, EFFECT_PISTON, flume, (size_t)MOVING_BYTES * (size_t)fill->piston_count,
         flume ? "waves in a flume: %d moving dummies, order %d, travel within %.3g m" : off,
@@ -121,12 +123,14 @@ static void choose_waves(const Scene *scene, Plan *plan, const Fill *fill)
         plan->zone_width);
 }
 
-static void choose_current(const Scene *scene, Plan *plan)
+static void choose_current(const Scene *scene, Plan *plan, const Fill *fill)
 {
     double speed = scene->waves.current.speed;
-    set(plan, EFFECT_CURRENT, speed > 0, 0,
+    size_t carried = sizeof(Vec3) * (size_t)(fill->ring_count + fill->body_count);
+    bool ring = scene_has_ring(scene);
+    set(plan, EFFECT_CURRENT, speed > 0, ring ? carried : 0,
         speed > 0 ? "waves.current: %.3g m/s" : "no waves.current", speed);
-    plan->effects[EFFECT_CURRENT].cost = COST_ELSEWHERE;
+    if (!ring) plan->effects[EFFECT_CURRENT].cost = COST_ELSEWHERE;
 }
 
 /// "free: surge heave; prescribed: pitch; fixed: sway roll yaw", over all bodies. A freedom that
@@ -207,7 +211,7 @@ void effects_choose(const Scene *scene, Plan *plan, const Fill *fill)
 {
     choose_pairs(scene, plan, fill);
     choose_waves(scene, plan, fill);
-    choose_current(scene, plan);
+    choose_current(scene, plan, fill);
     choose_bodies_and_lines(scene, plan, fill);
     choose_probes(scene, plan, fill);
     plan->bytes = RUN_BYTES + (size_t)FLUID_BYTES * (size_t)fill->fluid_count;

@@ -1,5 +1,7 @@
 #include "energy.h"
 
+#include "waves.h"
+
 /// Motion about and of the centre of gravity, and weight.
 static double body_energy(const Body *body, double gravity)
 {
@@ -35,13 +37,13 @@ int energy_columns(const Scene *scene, const State *state, EnergyColumn *column)
         line_work = state->line_work;
     }
     bool waves = scene->waves.kind != WAVES_NONE, budget = scene->energy == ENERGY_BUDGET;
-    bool basin = waves && scene->domain.kind == DOMAIN_BASIN;
+    bool basin = scene_has_ring(scene);
     bool flume = waves && scene->domain.kind == DOMAIN_FLUME;
     // velocities are half a step old; the last step says how they go on
     double gained = 0.5 * w.last_kick + now.kinetic - start.kinetic + now.potential -
                     start.potential + now.compressible - start.compressible;
     double given = w.viscosity + w.diffusion + w.ring + w.piston + w.bodies + w.walls + w.zone +
-                   w.shifting + w.limits;
+                   w.shifting + w.limits + w.current;
     const struct {
         bool present;
         EnergyColumn column;
@@ -53,7 +55,8 @@ int energy_columns(const Scene *scene, const State *state, EnergyColumn *column)
         {scene->line_count, {"lines_j", now.lines - start.lines}},
         {budget && flume, {"work_paddle_j", w.piston}},
         {budget && basin, {"work_ring_j", w.ring}},
-        {budget && waves, {"work_zone_j", w.zone}},
+        {budget && (flume || basin), {"work_zone_j", w.zone}},
+        {budget && basin && scene->waves.current.speed > 0, {"work_current_j", w.current}},
         {budget && scene->body_count, {"work_bodies_j", w.bodies}},
         {budget && scene->line_count, {"work_lines_j", line_work}},
         {budget, {"work_walls_j", w.walls}},

@@ -9,7 +9,7 @@
 /// it and bodies drag along counts to the water.
 EnergyLevels energy_levels(const Scene *scene, const State *state);
 
-enum { ENERGY_COLUMNS_MAX = 16 };
+enum { ENERGY_COLUMNS_MAX = 17 };
 
 /// A column `energy.…` of the series, as docs/case_file.md says.
 typedef struct EnergyColumn {

@@ -60,6 +60,7 @@ typedef struct Box {
     Lattice lattice;
     double surface;    ///< z [m]
     double layer_mass; ///< of one layer: column_mass [m]
+    Vec3 current;      ///< velocity of all water at t = 0 [m/s]
 } Box;
 
 static Vec3 mean_place(const Box *box, int i, int j, int k)
@@ -98,12 +99,12 @@ static void write_fluid(const Box *box, Fill *fill, int n, Vec3 mean, Vec3 shift
     const WaveState *waves = box->waves;
     double below = box->surface - mean.z;
     fill->fluid_position[n] = vec3_add(mean, shift);
-    fill->fluid_velocity[n] = vec3(0, 0, 0);
+    fill->fluid_velocity[n] = box->current;
     if (box->scene->fluid.standing_height > 0) below += standing_pressure(box->scene, mean, shift);
     if (waves) {
-        fill->fluid_velocity[n] = waves->sea
-                                      ? waves_orbit_velocity(waves, mean, 0)
-                                      : waves_zone_velocity(waves, fill->fluid_position[n], 0);
+        Vec3 orbit = waves->sea ? waves_orbit_velocity(waves, mean, 0)
+                                : waves_zone_velocity(waves, fill->fluid_position[n], 0);
+        fill->fluid_velocity[n] = vec3_add(fill->fluid_velocity[n], orbit);
         // a particle keeps its mean pressure but for what deep water theory leaves out:
         // p_dynamic/(rho g) - zeta = eta cosh K/cosh kd - zeta
         const WaveTerms *w = &waves->layers[0].train.terms;
@@ -145,6 +146,7 @@ static void fill_box(const Scene *scene, const Plan *plan, const WaveState *wave
 {
     Box box = {.scene = scene, .plan = plan, .waves = waves, .surface = max.z};
     box.lattice = lattice_of(min, max, scene->fluid.spacing, scene->domain.dimensions);
+    if (scene->waves.current.speed > 0) box.current = current_velocity(&scene->waves.current, 0);
     box.layer_mass = column_mass(scene, plan, max.z - min.z) / box.lattice.count[2];
 #pragma omp parallel for ordered schedule(static, 1) num_threads(plan->options.threads)
     for (int i = 0; i < box.lattice.count[0]; i++) {
@@ -213,7 +215,7 @@ static int *wall_of(const Scene *scene, Fill *fill, const Lattice *l, const int 
     bool across = index[1] < 0 || index[1] >= l->count[1];
     *owner = OWNER_FIXED;
     if (below) return &fill->wall_count;
-    if (scene->domain.kind == DOMAIN_BASIN && scene->waves.kind != WAVES_NONE) {
+    if (scene_has_ring(scene)) {
         *owner = OWNER_RING;
         return &fill->ring_count;
     }
@@ -254,6 +256,14 @@ static void fill_walls(const Scene *scene, const Plan *plan, Fill *fill)
                 int *count = wall_of(scene, fill, &l, index, &owner);
                 add_dummy(fill, count, lattice_point(&l, i, j, k), owner);
             }
+}
+
+void fill_pitches(const Scene *scene, double pitch[2])
+{
+    Vec3 top = scene->domain.max;
+    Lattice l = lattice_of(scene->domain.min, top, scene->fluid.spacing, scene->domain.dimensions);
+    pitch[0] = l.pitch[0];
+    pitch[1] = scene->domain.dimensions == 2 ? 0 : l.pitch[1];
 }
 
 bool fill_particles(const Scene *scene, const Plan *plan, Fill *fill, Error *error)

@@ -22,6 +22,9 @@ typedef struct Fill {
 bool fill_particles(const Scene *scene, const Plan *plan, Fill *fill, Error *error);
 
 /// Room for the particles that the plan counted, then the particles.
+/// Pitches along x and y of the lattice that water and ring are laid on [m]; 0 along y in 2-D.
+void fill_pitches(const Scene *scene, double pitch[2]);
+
 bool fill_create(const Scene *scene, const Plan *plan, Arena *arena, Fill *fill, Error *error);
 
 #endif

@@ -1,5 +1,6 @@
 #include "line_water.h"
 
+#include "current.h"
 #include "state.h"
 #include "step.h"
 
@@ -41,7 +42,7 @@ static void water_at_nodes(const void *context, LineWater kind, double time, int
     const WaveState *waves = nodes->state->waves;
     double level = scene->fluid.level;
     bool still = scene->waves.kind == WAVES_NONE;
-    Vec3 current = waves_current(scene);
+    Vec3 current = current_velocity(&scene->waves.current, time);
     if (!still) incident_velocity(scene, waves, time, count, position, velocity);
     for (int i = 0; i < count; i++) {
         velocity[i] = still ? current : vec3_add(velocity[i], current);

@@ -287,6 +287,17 @@ static bool reach_of_walls(const Scene *scene, Plan *plan, Error *error)
     return true;
 }
 
+/// Which way the current carries the ring, and the lattice that is carried.
+static void choose_flow(const Scene *scene, Plan *plan)
+{
+    Vec3 current = current_velocity(&scene->waves.current, INFINITY);
+    const double along[2] = {current.x, scene->domain.dimensions == 2 ? 0 : current.y};
+    fill_pitches(scene, plan->pitch);
+    for (int a = 0; a < 2; a++) // across the current rounding is all there is
+        if (fabs(along[a]) > 1e-9 * scene->waves.current.speed)
+            plan->flow[a] = along[a] > 0 ? 1 : -1;
+}
+
 static bool build(const Scene *scene, Plan *plan, Error *error)
 {
     if (scene->domain.kind == DOMAIN_LINES) return build_lines(scene, plan, error);
@@ -298,7 +309,9 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
     plan->smoothing_length = scene->fluid.smoothing_ratio * dp;
     // a particle dp/2 from the wall sees layers at dp, 2 dp, …: those below 2h count
     plan->wall_layers = (int)ceil(2 * scene->fluid.smoothing_ratio - 1e-6) - 1;
-    plan->zone_width = scene->waves.kind == WAVES_NONE ? 0 : waves_zone_width(scene);
+    if (scene->waves.kind != WAVES_NONE || scene_has_ring(scene))
+        plan->zone_width = waves_zone_width(scene);
+    if (scene_has_ring(scene) && scene->waves.current.speed > 0) choose_flow(scene, plan);
     plan->pair_mask = (scene->fluid.alpha > 0 ? PAIR_VISCOSITY : 0) |
                       (scene->fluid.delta > 0 ? PAIR_DIFFUSION : 0) |
                       (scene->fluid.gradient == GRADIENT_CORRECTED ? PAIR_GRADIENT : 0) |

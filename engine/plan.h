@@ -78,6 +78,8 @@ typedef struct Plan {
     char time_step_limit[64];  ///< which limit binds
     double zone_width;         ///< [m], 0 without
     double wall_reach;         ///< most that ring or piston may move sideways [m], 0 without
+    double flow[2];            ///< x, y: signs of the current that carries the ring, 0 without
+    double pitch[2];           ///< x, y: of the ring's lattice then [m]
     const MotionTable *piston; ///< record that the piston follows; NULL without
     int fluid_count, wall_count, body_particle_count;
     BodyPlan *bodies;          ///< [scene->body_count]

@@ -129,10 +129,11 @@ typedef struct WaveGain {
     char gauge_name[SCENE_NAME_SIZE]; ///< as the file says it
 } WaveGain;
 
-/// A steady uniform current; only where no particles are (docs/physics.md).
+/// A steady uniform current (current.h).
 typedef struct Current {
     double speed;   ///< [m/s]
     double heading; ///< where it flows to [rad]
+    double ramp;    ///< time to grow from rest [s]; 0 = it flows from the start
 } Current;
 
 typedef struct Waves {
@@ -383,6 +384,14 @@ typedef struct Scene {
     CameraScene camera;
     char notes[1024]; ///< what the reader of a MoorDyn file left out, lines joined by "; "
 } Scene;
+
+/// Whether a ring of moving dummies bounds the domain: a basin with waves or a current.
+static inline bool scene_has_ring(const Scene *scene)
+{
+    const Waves *waves = &scene->waves;
+    return scene->domain.kind == DOMAIN_BASIN &&
+           (waves->kind != WAVES_NONE || waves->current.speed > 0);
+}
 
 /// Defaults for everything; required numbers are NAN so that scene_check refuses them.
 /// (scene_default.c; each value stands beside its source)

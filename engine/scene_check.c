@@ -190,14 +190,23 @@ static bool check_current(const JsonReader *reader, const Scene *scene)
 {
     const Waves *waves = &scene->waves;
     if (!(waves->current.speed > 0)) return true;
-    if (scene->domain.kind != DOMAIN_LINES)
+    if (scene->domain.kind == DOMAIN_TANK || scene->domain.kind == DOMAIN_FLUME)
         return table_refuse_number(reader, "waves.current.speed_ms", waves->current.speed,
-                                   "must be 0 where water particles are (walls and ring let "
-                                   "nothing through); domain.kind \"lines\" takes it");
-    if (waves->kind == WAVES_IRREGULAR || waves->kind == WAVES_FOCUSED)
+                                   "must be 0 between fixed walls, which let nothing through; "
+                                   "domain.kind \"basin\" and \"lines\" take it");
+    double heading = waves->current.heading, most = sqrt(scene->fluid.gravity * water_depth(scene));
+    if (scene->domain.dimensions == 2 && fabs(sin(heading)) > 1e-6)
+        return table_refuse_number(reader, "waves.current.heading_deg", heading * 180 / PI,
+                                   "must be 0 or 180 in 2-D");
+    if (scene->domain.kind == DOMAIN_BASIN && waves->current.speed > most)
         return table_refuse_number(reader, "waves.current.speed_ms", waves->current.speed,
-                                   "must be 0 with waves that are not regular");
-    return true;
+                                   "must be >= 0 and <= %.4g m/s (sqrt(g d): water that shoots "
+                                   "carries no wave upstream)",
+                                   most);
+    if (waves->kind == WAVES_NONE || waves_may_run(scene, &waves->initial)) return true;
+    return table_refuse_number(reader, "waves.current.speed_ms", waves->current.speed,
+                               "must be slower: against it no wave of %.9g s can run",
+                               waves->initial.period);
 }
 
 static bool check_spectrum(const JsonReader *reader, const Scene *scene)
@@ -224,11 +233,28 @@ static bool check_spectrum(const JsonReader *reader, const Scene *scene)
     return true;
 }
 
+static bool check_zone(const JsonReader *reader, const Scene *scene)
+{
+    const Waves *waves = &scene->waves;
+    const Domain *domain = &scene->domain;
+    double narrowest = domain->max.x - domain->min.x;
+    if (domain->dimensions == 3) narrowest = mind(narrowest, domain->max.y - domain->min.y);
+    if (domain->kind != DOMAIN_BASIN || waves_zone_width(scene) < narrowest / 2) return true;
+    if (waves->zone_width == 0)
+        return table_refuse(reader, "waves.zone_width_m", NULL,
+                            "by the rule it would be %.3g m: must be given, > 0 and < %.9g m (half "
+                            "of the basin's narrow side), or the basin larger",
+                            waves_zone_width(scene), narrowest / 2);
+    return table_refuse_number(reader, "waves.zone_width_m", waves->zone_width,
+                               "must be >= 0 and < %.9g m (half of the basin's narrow side)",
+                               narrowest / 2);
+}
+
 static bool check_waves(const JsonReader *reader, const Scene *scene)
 {
     const Waves *waves = &scene->waves;
     const Domain *domain = &scene->domain;
-    if (waves->kind == WAVES_NONE) return true;
+    if (waves->kind == WAVES_NONE) return !scene_has_ring(scene) || check_zone(reader, scene);
     if (domain->kind == DOMAIN_TANK)
         return table_refuse(reader, "waves.kind", NULL,
                             "a tank has walls all round: must be \"none\", or domain.kind must be "
@@ -243,19 +269,8 @@ static bool check_waves(const JsonReader *reader, const Scene *scene)
                     180 / PI, "deg"));
     TRY(check_wave_heights(reader, scene));
     TRY(check_spectrum(reader, scene));
-    double narrowest = domain->max.x - domain->min.x;
-    if (domain->dimensions == 3) narrowest = mind(narrowest, domain->max.y - domain->min.y);
-    if (domain->kind != DOMAIN_BASIN || waves_zone_width(scene) < narrowest / 2) return true;
-    if (waves->zone_width == 0)
-        return table_refuse(reader, "waves.zone_width_m", NULL,
-                            "by the rule it would be %.3g m: must be given, > 0 and < %.9g m (half "
-                            "of the basin's narrow side), or the basin larger",
-                            waves_zone_width(scene), narrowest / 2);
-    return table_refuse_number(reader, "waves.zone_width_m", waves->zone_width,
-                               "must be >= 0 and < %.9g m (half of the basin's narrow side)",
-                               narrowest / 2);
+    return check_zone(reader, scene);
 }
-
 double case_particle_estimate(const Scene *scene, double spacing)
 {
     const Domain *domain = &scene->domain;

@@ -93,6 +93,7 @@ static const JsonTable GAIN_TABLE = {GAIN_FIELDS, COUNT(GAIN_FIELDS), NULL};
 static const JsonField CURRENT_FIELDS[] = {
     {"speed_ms", FIELD_NUMBER, true, IN_CASE(scene.waves.current.speed), .max = 10, .unit = "m/s"},
     {"heading_deg", FIELD_NUMBER, IN_CASE(scene.waves.current.heading), DEGREES(-180, 360)},
+    {"ramp_s", FIELD_NUMBER, IN_CASE(scene.waves.current.ramp), .max = 1000, .unit = "s"},
 };
 static const JsonTable CURRENT_TABLE = {CURRENT_FIELDS, COUNT(CURRENT_FIELDS), NULL};
 

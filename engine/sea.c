@@ -154,29 +154,49 @@ static void make_second(const Sea *sea, SeaLayer *layer)
     layer->pairs_start = piston_pairs_sum(&layer->pairs, cosine, sine);
 }
 
-static void layer_make(const Sea *sea, SeaLayer *layer, const WaveTarget *target,
-                       double time_origin)
+/// A component's wave number on the current; `omega` comes as what a gauge sees and goes as what
+/// the water feels. @return NAN where the current lets no such wave run
+static double number_on_current(const Sea *sea, const Current *current, double heading,
+                                double *omega)
 {
+    double along = current->speed > 0 ? current_along(current, heading) : 0;
+    double k = current_wave_number(*omega, along, sea->depth, sea->gravity);
+    *omega -= k * along;
+    return k;
+}
+
+static void layer_make(const Sea *sea, SeaLayer *layer, const WaveTarget *target,
+                       double time_origin, const Current *current)
+{
+    Vec3 way =
+        vec3_sub(current_travel(current, sea->focus_time), current_travel(current, time_origin));
     layer->target = *target;
     layer->time_origin = time_origin;
     layer->made = true;
     for (int i = 0; i < sea->count; i++) {
         const SeaShape *shape = &sea->shape[i];
         double omega = 2 * PI * shape->frequency / target->period;
-        double k = wave_theory_number(omega, sea->depth, sea->gravity);
-        double heading = target->heading + shape->turn;
+        double heading = target->heading + shape->turn, share = shape->share;
+        double k = number_on_current(sea, current, heading, &omega);
+        if (isnan(k)) { // blocked: the sea goes without it
+            share = 0;
+            omega = 2 * PI * shape->frequency / target->period;
+            k = wave_theory_number(omega, sea->depth, sea->gravity);
+        }
         double c = cos(heading), s = sea->plane ? 0 : sin(heading);
         layer->angular_frequency[i] = omega;
         layer->wave_number[i] = k;
         layer->depth_ratio[i] = exp(-2 * k * sea->depth);
-        layer->amplitude[i] = target->height * shape->share / (1 - layer->depth_ratio[i]);
+        layer->amplitude[i] = target->height * share / (1 - layer->depth_ratio[i]);
         layer->cosine[i] = c;
         layer->sine[i] = s;
         layer->turns_x[i] = k * c / (2 * PI);
         layer->turns_y[i] = k * s / (2 * PI);
         double x = sea->focused ? sea->focus_x : sea->centre_x;
         double y = sea->focused ? sea->focus_y : sea->centre_y;
-        double phase = sea->focused ? omega * (sea->focus_time - time_origin) : shape->phase;
+        double phase = shape->phase;
+        if (sea->focused)
+            phase = omega * (sea->focus_time - time_origin) + k * (way.x * c + way.y * s);
         layer->turns[i] =
             remainder(phase / (2 * PI) - layer->turns_x[i] * x - layer->turns_y[i] * y, 1);
     }
@@ -194,6 +214,6 @@ void sea_refresh(Sea *sea, const WaveState *waves)
         const WaveTarget *made = &layer->target;
         bool same = layer->made && layer->time_origin == origin && made->height == target->height &&
                     made->period == target->period && made->heading == target->heading;
-        if (!same) layer_make(sea, layer, target, origin);
+        if (!same) layer_make(sea, layer, target, origin, &waves->current);
     }
 }

@@ -7,6 +7,14 @@
 
 enum { BLOCK = 64 };
 
+/// How far the current has carried the water since a layer's origin [m].
+static Vec3 way_since(const WaveState *waves, const SeaLayer *layer, double time)
+{
+    const Current *current = &waves->current;
+    if (!(current->speed > 0)) return vec3(0, 0, 0);
+    return vec3_sub(current_travel(current, time), current_travel(current, layer->time_origin));
+}
+
 typedef struct SeaSum {
     Vec3 displacement, velocity, acceleration;
 } SeaSum;
@@ -23,12 +31,13 @@ static SeaSum sea_sum(const WaveState *waves, Vec3 mean, double time)
     for (int l = 0; l < waves->layer_count; l++) {
         const SeaLayer *layer = &sea->layers[l];
         double w0 = weights[l].value, w1 = weights[l].rate, w2 = weights[l].curve;
+        Vec3 way = way_since(waves, layer, time);
         for (int i = 0; i < sea->count && layer->target.height > 0; i++) {
             double omega = layer->angular_frequency[i], k = layer->wave_number[i];
-            double theta =
-                2 * PI *
-                    (layer->turns_x[i] * mean.x + layer->turns_y[i] * mean.y + layer->turns[i]) -
-                omega * (time - layer->time_origin);
+            double theta = 2 * PI *
+                               (layer->turns_x[i] * (mean.x - way.x) +
+                                layer->turns_y[i] * (mean.y - way.y) + layer->turns[i]) -
+                           omega * (time - layer->time_origin);
             double s = sin(theta), c = cos(theta), e = exp(k * z), f = layer->depth_ratio[i] / e;
             double a = layer->amplitude[i], wide = a * (e + f), high = a * (e - f);
             double rise = 0.5 * k * a * a * (e * e - f * f);
@@ -102,11 +111,12 @@ typedef struct SeaTerm {
     float turns_x, turns_y, turns, number, depth_ratio, amplitude, rate, rise, cosine, sine;
 } SeaTerm;
 
-static SeaTerm term_of(const SeaLayer *layer, int i, WaveStep weight, double time)
+static SeaTerm term_of(const SeaLayer *layer, int i, WaveStep weight, double time, Vec3 way)
 {
     SeaTerm t;
     double omega = layer->angular_frequency[i], k = layer->wave_number[i];
     double turns = layer->turns[i] - omega * (time - layer->time_origin) / (2 * PI);
+    turns -= layer->turns_x[i] * way.x + layer->turns_y[i] * way.y;
     t.turns_x = (float)layer->turns_x[i];
     t.turns_y = (float)layer->turns_y[i];
     t.turns = (float)(turns - floor(turns + 0.5));
@@ -161,8 +171,9 @@ static void block_sum(SeaBlock *b, const WaveState *waves, double time, bool vel
         const SeaLayer *layer = &waves->sea->layers[l];
         if (!(layer->target.height > 0) || !(weights[l].value > 0)) continue;
         float change = (float)(weights[l].rate / weights[l].value);
+        Vec3 way = way_since(waves, layer, time);
         for (int i = 0; i < waves->sea->count; i++) {
-            SeaTerm t = term_of(layer, i, weights[l], time);
+            SeaTerm t = term_of(layer, i, weights[l], time, way);
             if (velocity)
                 block_drive(b, t, change);
             else

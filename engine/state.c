@@ -31,6 +31,8 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     s.delta = scene->fluid.delta;
     s.gravity = scene->fluid.gravity;
     s.level = scene->fluid.level;
+    memcpy(s.flow, plan->flow, sizeof s.flow);
+    memcpy(s.pitch, plan->pitch, sizeof s.pitch);
     s.largest_travel = 0.25 * plan->largest_speed * plan->time_step;
     s.pair_mask = plan->pair_mask;
     s.works = scene->energy == ENERGY_BUDGET;
@@ -38,8 +40,10 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     // spray may fly; waves of a basin must stay inside
     const double high[3] = {d->max.x, d->max.y, INFINITY};
     bool waves = scene->waves.kind != WAVES_NONE;
-    bool ring = waves && d->kind == DOMAIN_BASIN, piston = waves && d->kind == DOMAIN_FLUME;
-    const double wall_reach = plan->wall_reach;
+    bool ring = scene_has_ring(scene), piston = waves && d->kind == DOMAIN_FLUME;
+    // on a current the ring's lattice goes on by a pitch before it is set back
+    const double wall_reach =
+        plan->wall_reach + (ring && scene->waves.current.speed > 0 ? s.spacing : 0);
     for (int a = 0; a < 3; a++) {
         bool any = a == 1 && d->dimensions == 2;
         double reach = a < 2 ? wall_reach : 0; // water rides with ring and piston
@@ -54,7 +58,7 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     s.barrier_top = d->max.z;
     // dummies behind the walls, waves of the ring, bodies that stick out, spray above
     double side = (plan->wall_layers + 2) * s.spacing;
-    if (scene->waves.kind != WAVES_NONE) side += maxd(scene->waves.height_limits.max, wall_reach);
+    if (waves || ring) side += maxd(scene->waves.height_limits.max, wall_reach);
     double top = d->max.z + 0.5 * (d->max.z - d->min.z);
     for (int b = 0; b < scene->body_count; b++) {
         const MeshProperties *p = &plan->bodies[b].geometry.properties;
@@ -101,7 +105,7 @@ static bool create_particles(const Scene *scene, const Plan *plan, State *state,
 
 static bool create_waves(const Scene *scene, const Plan *plan, State *state, Error *error)
 {
-    if (scene->waves.kind == WAVES_NONE) return true;
+    if (scene->waves.kind == WAVES_NONE && !scene_has_ring(scene)) return true;
     TRY(state->waves = arena_take(&state->arena, 1, sizeof(WaveState), "waves", error));
     TRY(state->checkpoint.waves = arena_take(&state->arena, 1, sizeof(WaveState), "waves", error));
     *state->waves = waves_create(scene);

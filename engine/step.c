@@ -103,10 +103,37 @@ static void move_ring(const void *context, double time, int count, const Vec3 *m
     waves_ring_places(context, time, count, mean, place);
 }
 
+/// Mean places go with the current.
+static void move_ring_on_current(const void *context, double time, int count, const Vec3 *mean,
+                                 Vec3 *place)
+{
+    enum { BLOCK = 256 };
+    const WaveState *waves = context;
+    Vec3 at[BLOCK], way = current_travel(&waves->current, time);
+    for (int begin = 0; begin < count; begin += BLOCK) {
+        int n = count - begin < BLOCK ? count - begin : BLOCK;
+        for (int i = 0; i < n; i++)
+            at[i] = vec3_add(mean[begin + i], way);
+        waves_ring_places(waves, time, n, at, place + begin);
+    }
+}
+
 static void zone_velocity(const void *context, double time, int count, const float *x,
                           const float *y, const float *z, float *u, float *v, float *w)
 {
     waves_zone_batch(context, time, count, x, y, z, u, v, w);
+}
+
+static void zone_velocity_on_current(const void *context, double time, int count, const float *x,
+                                     const float *y, const float *z, float *u, float *v, float *w)
+{
+    const WaveState *waves = context;
+    Vec3 current = current_velocity(&waves->current, time);
+    waves_zone_batch(waves, time, count, x, y, z, u, v, w);
+    for (int i = 0; i < count; i++) {
+        u[i] += (float)current.x;
+        v[i] += (float)current.y;
+    }
 }
 
 static double hull_skin(const void *context, int body, Vec3 point)
@@ -117,6 +144,13 @@ static double hull_skin(const void *context, int body, Vec3 point)
 
 enum { SEA_EVERY = 8 };
 
+/// Of the waves; without them of the longest that the zone is wide enough for, in deep water [s].
+static double zone_period(const Scene *scene, const Plan *plan, const State *state)
+{
+    if (scene->waves.kind != WAVES_NONE) return state->waves->asked.period;
+    return sqrt(2 * PI * plan->zone_width / 0.75 / scene->fluid.gravity);
+}
+
 static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State *state)
 {
     const Domain *d = &scene->domain;
@@ -125,16 +159,37 @@ static RelaxationZone zone_of(const Scene *scene, const Plan *plan, const State 
     bool basin = called_for(plan, EFFECT_ZONE), beach = called_for(plan, EFFECT_BEACH);
     if (!basin && !beach) return zone;
     zone.width = plan->zone_width;
-    zone.time_scale = 0.1 * state->waves->asked.period;
+    zone.time_scale = 0.1 * zone_period(scene, plan, state);
     zone.side_min[0] = basin ? d->min.x : -1e30;
     zone.side_max[0] = d->max.x;
     zone.side_min[1] = basin && d->dimensions == 3 ? d->min.y : -1e30;
     zone.side_max[1] = basin && d->dimensions == 3 ? d->max.y : 1e30;
-    zone.target = basin ? zone_velocity : NULL;
+    bool current = called_for(plan, EFFECT_CURRENT);
+    zone.target = current ? zone_velocity_on_current : basin ? zone_velocity : NULL;
     // a sea's target costs as much as the particle itself: a fifth of tau is short enough
     double steps = zone.time_scale / plan->time_step / 5;
     zone.every = state->waves->sea && steps > 1 ? (int)mind(steps, SEA_EVERY) : 1;
     return zone;
+}
+
+static void order_current(const Plan *plan, const State *state, double dt, Advance *advance)
+{
+    const Current *current = &state->waves->current;
+    Vec3 drive = current_acceleration(current, state->time + 0.5 * dt);
+    Vec3 now = current_travel(current, state->time);
+    Vec3 then = current_travel(current, state->time + dt);
+    const double from[2] = {now.x, now.y}, to[2] = {then.x, then.y};
+    advance->ring = move_ring_on_current;
+    advance->drive[0] = drive.x;
+    advance->drive[1] = drive.y;
+    for (int a = 0; a < 2; a++) {
+        if (plan->flow[a] == 0) continue;
+        // a layer is full when it has gone by its pitch, upstream or downstream of x = 0 alike
+        double pitch = plan->pitch[a], layers = floor(plan->flow[a] * from[a] / pitch);
+        double next = floor(plan->flow[a] * to[a] / pitch);
+        advance->carried[a] = plan->flow[a] * pitch * layers;
+        advance->passes[a] = plan->flow[a] * pitch * (next - layers);
+    }
 }
 
 Advance step_orders(const Scene *scene, const Plan *plan, State *state, double dt)
@@ -155,6 +210,8 @@ Advance step_orders(const Scene *scene, const Plan *plan, State *state, double d
     advance.ring = called_for(plan, EFFECT_RING) ? move_ring : NULL;
     advance.piston = called_for(plan, EFFECT_PISTON) ? piston_move : NULL;
     advance.zone = zone_of(scene, plan, state);
+    if (called_for(plan, EFFECT_RING) && called_for(plan, EFFECT_CURRENT))
+        order_current(plan, state, dt, &advance);
     return advance;
 }
 
@@ -213,6 +270,7 @@ static void share_clocks(const Plan *plan, State *state)
     e[EFFECT_RING] += c[CLOCK_RING];
     e[EFFECT_PISTON] += c[CLOCK_PISTON];
     e[called_for(plan, EFFECT_BEACH) ? EFFECT_BEACH : EFFECT_ZONE] += c[CLOCK_ZONE];
+    e[EFFECT_CURRENT] += c[CLOCK_CONVEYOR];
     e[EFFECT_BODIES] += c[CLOCK_LOADS];
     e[EFFECT_ENERGY] += c[CLOCK_WORKS];
     double momentum = state->pair_cost[0]; // all but density diffusion's

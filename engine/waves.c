@@ -32,10 +32,23 @@ static bool waves_are_a_sea(const Scene *scene)
 
 static double angle_between(double a, double b) { return fabs(remainder(a - b, 2 * PI)); }
 
-/// theta at the basin's centre.
-static double centre_phase(const WaveTrain *train, double time)
+/// theta at the basin's centre; the water has gone on since the train's origin.
+static double centre_phase(const WaveState *waves, const WaveTrain *train, double time)
 {
-    return train->phase - train->terms.angular_frequency * (time - train->time_origin);
+    const WaveTerms *w = &train->terms;
+    double phase = train->phase - w->angular_frequency * (time - train->time_origin);
+    if (!(waves->current.speed > 0)) return phase;
+    Vec3 to = current_travel(&waves->current, time);
+    Vec3 way = vec3_sub(to, current_travel(&waves->current, train->time_origin));
+    return phase - w->wave_number * (way.x * w->cos_heading + way.y * w->sin_heading);
+}
+
+/// What a wave is for who goes with the water.
+static void leave_current(WaveTerms *terms, double along)
+{
+    terms->angular_frequency -= terms->wave_number * along;
+    terms->mean_velocity -= along;
+    terms->transport -= along;
 }
 
 /// Coefficients of the asked wave: by its theory, and to second order where that has no such wave
@@ -49,20 +62,21 @@ static WaveTerms terms_create(const Scene *scene, const WaveTarget *target, Wave
                          .depth = depth,
                          .gravity = scene->fluid.gravity};
     SteadyWave wave;
-    if (scene->domain.kind == DOMAIN_LINES) { // an open sea: nothing flows back
-        ask.eulerian = true;
-        ask.current = waves_current_along(scene, target->heading);
-    }
+    ask.eulerian = scene->domain.kind == DOMAIN_LINES; // an open sea: nothing flows back
+    ask.current = current_along(&scene->waves.current, target->heading);
     if (target->height > 0 && steady_wave_solve(&ask, &wave)) {
         WaveTerms terms = wave_orbits_terms(&wave, level, &misfit);
         *theory = wave.theory;
-        if (ask.eulerian) terms.mean_velocity = 0; // the current itself is added by who asks
+        leave_current(&terms, ask.current);
+        if (ask.eulerian) terms.mean_velocity = 0;
         if (misfit < MISFIT * target->height) return terms;
     }
     *theory = WAVE_THEORY_STOKES2;
     double omega = 2 * PI / target->period;
-    double number = wave_number_airy(omega, depth, scene->fluid.gravity);
-    WaveTerms terms = wave_terms(target->height / 2, number, omega, depth, level);
+    double number = current_wave_number(omega, ask.current, depth, scene->fluid.gravity);
+    if (isnan(number)) number = wave_number_airy(omega, depth, scene->fluid.gravity); // refused
+    WaveTerms terms =
+        wave_terms(target->height / 2, number, omega - number * ask.current, depth, level);
     if (ask.eulerian) terms.mean_velocity = 0;
     return terms;
 }
@@ -122,6 +136,7 @@ WaveState waves_create(const Scene *scene)
 {
     WaveState waves;
     memset(&waves, 0, sizeof waves);
+    waves.current = scene->waves.current;
     if (scene->waves.kind == WAVES_NONE) return waves;
     waves.asked = scene->waves.initial;
     waves.interior = interior_create(scene);
@@ -187,7 +202,8 @@ static void layer_push(WaveState *waves, const WaveTrain *train, const WaveTarge
     layer->begin = time;
     layer->duration = duration;
     layer->train.time_origin = time + duration / 2;
-    layer->train.phase = remainder(centre_phase(&top->train, layer->train.time_origin), 2 * PI);
+    layer->train.phase =
+        remainder(centre_phase(waves, &top->train, layer->train.time_origin), 2 * PI);
     // a sea counts its time in peak periods, so that the phases of all components meet; a group
     // keeps its focus
     if (waves->sea && !waves->sea->focused)
@@ -319,7 +335,7 @@ int waves_terms(const WaveState *waves, double time, WaveTerms *terms)
         *w = train->terms;
         w->turns_x = w->wave_number * w->cos_heading / (2 * PI);
         w->turns_y = w->wave_number * w->sin_heading / (2 * PI);
-        double turns = centre_phase(train, time) / (2 * PI) - w->turns_x * train->centre_x -
+        double turns = centre_phase(waves, train, time) / (2 * PI) - w->turns_x * train->centre_x -
                        w->turns_y * train->centre_y;
         w->turns = remainder(turns, 1);
         w->weight = weights[i].value;

@@ -4,6 +4,7 @@
 #define FAIRLEAD_WAVES_H
 
 #include "base/portable.h"
+#include "current.h"
 #include "physics/wave_theory.h"
 #include "scene.h"
 
@@ -64,6 +65,7 @@ typedef struct WaveState {
     bool has_queued;                   ///< `queued` waits for its turn
     WaveTarget queued;
     WaveInterior interior;
+    Current current;                  ///< that the waves ride on
     double gain;                      ///< of new layers
     struct Sea *sea;                  ///< components; NULL for regular waves; borrowed
     const struct MotionTable *record; ///< what the piston follows instead; NULL without; borrowed
@@ -111,12 +113,12 @@ int waves_terms(const WaveState *waves, double time, WaveTerms *terms);
 Vec3 waves_displacement(const WaveState *waves, Vec3 mean, double time);
 Vec3 waves_orbit_velocity(const WaveState *waves, Vec3 mean, double time);
 
-/// What the relaxation zone aims at: Eulerian velocity at (x, min(z, eta)) less, towards the sides,
-/// the drift of particles (WaveInterior).
+/// What the relaxation zone aims at, beside the current: Eulerian velocity at (x, min(z, eta))
+/// less, towards the sides, the drift of particles (WaveInterior).
 Vec3 waves_zone_velocity(const WaveState *waves, Vec3 point, double time);
 
-/// Incident elevation above still water [m], Eulerian velocity and local acceleration at
-/// (x, min(z, eta)).
+/// Incident elevation above still water [m], Eulerian velocity beside the current and its rate of
+/// change for who goes with the current, at (x, min(z, eta)).
 double waves_elevation(const WaveState *waves, double x, double y, double time);
 Vec3 waves_velocity(const WaveState *waves, Vec3 point, double time);
 Vec3 waves_acceleration(const WaveState *waves, Vec3 point, double time);
@@ -131,9 +133,8 @@ void waves_ring_places(const WaveState *waves, double time, int count, const Vec
 void waves_zone_batch(const WaveState *waves, double time, int count, const float *x,
                       const float *y, const float *z, float *u, float *v, float *w);
 
-/// The scene's current [m/s], and its part along a heading.
-Vec3 waves_current(const Scene *scene);
-double waves_current_along(const Scene *scene, double heading);
+/// Whether a wave may run: against too fast a current there is none of its period.
+bool waves_may_run(const Scene *scene, const WaveTarget *target);
 
 /// Width of the basin's relaxation zone or of the flume's beach [m]: the case's, or 0.75 of the
 /// longest wave that may be set live (the whole of it for a beach). 0 without waves and in a tank.

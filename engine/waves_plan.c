@@ -7,32 +7,40 @@
 
 /// Width of the relaxation zone and length of the beach in longest wave lengths (docs/physics.md).
 static const double ZONE_LENGTHS = 0.75, BEACH_LENGTHS = 1.0;
+/// And the least that a zone without waves has.
+static const double ZONE_SPACINGS = 10;
 /// Expected largest of 1000 waves over the significant height, Rayleigh: sqrt(ln(1000)/2).
 /// Source: Longuet-Higgins (1952), J. Mar. Res. 11, 245.
 static const double LARGEST_OF_SEA = 1.86;
 
 static double basin_depth(const Scene *scene) { return scene->fluid.level - scene->domain.min.z; }
 
+/// Of the wave that rides on the scene's current, at its heading to begin with.
 static double wave_length(const Scene *scene, double period)
 {
-    return 2 * PI / wave_number_airy(2 * PI / period, basin_depth(scene), scene->fluid.gravity);
+    double along = current_along(&scene->waves.current, scene->waves.initial.heading);
+    double k =
+        current_wave_number(2 * PI / period, along, basin_depth(scene), scene->fluid.gravity);
+    if (isnan(k)) k = wave_number_airy(2 * PI / period, basin_depth(scene), scene->fluid.gravity);
+    return 2 * PI / k;
 }
 
-Vec3 waves_current(const Scene *scene)
+bool waves_may_run(const Scene *scene, const WaveTarget *target)
 {
-    const Current *c = &scene->waves.current;
-    return vec3(c->speed * cos(c->heading), c->speed * sin(c->heading), 0);
-}
-
-double waves_current_along(const Scene *scene, double heading)
-{
-    return scene->waves.current.speed * cos(heading - scene->waves.current.heading);
+    double along = current_along(&scene->waves.current, target->heading);
+    return !isnan(current_wave_number(2 * PI / target->period, along, basin_depth(scene),
+                                      scene->fluid.gravity));
 }
 
 double waves_zone_width(const Scene *scene)
 {
-    if (scene->waves.kind == WAVES_NONE || scene->domain.kind == DOMAIN_TANK) return 0;
+    const Current *current = &scene->waves.current;
+    bool waves = scene->waves.kind != WAVES_NONE;
+    if (scene->domain.kind == DOMAIN_TANK || !(waves || scene_has_ring(scene))) return 0;
     if (scene->waves.zone_width > 0) return scene->waves.zone_width;
+    // the waves that stand still on a current are the longest that a body in it makes
+    double standing = 2 * PI * current->speed * current->speed / scene->fluid.gravity;
+    if (!waves) return maxd(ZONE_LENGTHS * standing, ZONE_SPACINGS * scene->fluid.spacing);
     double longest = scene->waves.initial.period;
     if (scene->waves.period_limits.max > longest) longest = scene->waves.period_limits.max;
     double lengths = scene->domain.kind == DOMAIN_FLUME ? BEACH_LENGTHS : ZONE_LENGTHS;
@@ -144,7 +152,8 @@ void waves_tell(const Scene *scene, char *text, int size)
     WaveState waves = waves_create(scene);
     const WaveTerms *w = &waves.layers[waves.layer_count - 1].train.terms;
     snprintf(text + used, (size_t)(size - used),
-             "; length %.4g m, speed %.4g m/s, return current %.3g m/s (%s, %d harmonics)",
-             2 * PI / w->wave_number, w->angular_frequency / w->wave_number, -w->mean_velocity,
+             "; length %.4g m, speed %.4g m/s%s, return current %.3g m/s (%s, %d harmonics)",
+             2 * PI / w->wave_number, w->angular_frequency / w->wave_number,
+             scene->waves.current.speed > 0 ? " in the water" : "", -w->mean_velocity,
              theories[waves.layers[waves.layer_count - 1].train.theory], w->harmonics);
 }

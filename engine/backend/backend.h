@@ -45,6 +45,8 @@ typedef struct ParticleStart {
 
 typedef struct BackendSetup {
     int dimensions, threads, body_count;
+    double flow[2];  ///< x, y: signs of the current that carries ring and water, 0 without
+    double pitch[2]; ///< x, y: of the ring's lattice then [m]
     double room_min[3], room_max[3];       ///< all that coordinates must reach [m]
     double inside_min[3], inside_max[3];   ///< between the walls, above the bed [m]
     double barrier_min[3], barrier_max[3]; ///< planes of fixed walls and bed [m]; infinite = none
@@ -99,6 +101,9 @@ typedef struct Advance {
     const void *waves;       ///< context of the calls below
     MovePoints ring, piston; ///< NULL when not in the plan
     RelaxationZone zone;
+    double drive[2];   ///< x, y: what the current gains, felt by all water [m/s^2]
+    double carried[2]; ///< x, y: whole pitches by which it has carried the ring before [m]
+    double passes[2];  ///< x, y: the one that becomes full in this step [m], or 0
 } Advance;
 
 /// What health asks after a step.
@@ -124,6 +129,7 @@ typedef struct FluidWorks {
     double walls;     ///< all else between water and dummies: slip through the extrapolation
     double zone;      ///< relaxation
     double shifting;  ///< lifting by particle shifting
+    double current;   ///< of water that came in less that of what went out, and of the drive
     double limits;    ///< tension floor and barrier
     double pressure;  ///< of water on water: the error of stepping in time
     double last_kick; ///< kinetic energy that the last step gave [J]
@@ -146,6 +152,7 @@ typedef enum BackendClock {
     CLOCK_PISTON,  ///< where the piston is to be
     CLOCK_INTEGRATE,
     CLOCK_ZONE,
+    CLOCK_CONVEYOR, ///< water in and out
     CLOCK_WORKS,
     CLOCK_COUNT
 } BackendClock;

@@ -155,6 +155,7 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
     if (setup->works) TRY(works_create(b, arena, error));
     place_particles(b, start);
     if (setup->body_count) TRY(hulls_create(b, arena, error));
+    if (setup->flow[0] != 0 || setup->flow[1] != 0) TRY(conveyor_create(b, arena, error));
     b->sweep = make_sweep(b);
     b->excess_floor =
         (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);
@@ -420,14 +421,17 @@ static size_t set_transfer(ParticleSet *set, char *to, const char *from)
 /// What else changes, as set_transfer.
 static size_t rest_transfer(Backend *b, char *to, const char *from)
 {
+    bool flows = b->setup.flow[0] != 0 || b->setup.flow[1] != 0;
     struct {
         void *data;
         size_t size;
     } parts[] = {{&b->first_step, sizeof(bool)},
+                 {b->sweep.gravity, sizeof b->sweep.gravity},
+                 {b->moving_reference, flows ? (size_t)b->moving.count * sizeof(Vec3) : 0},
                  {b->hulls, (size_t)b->setup.body_count * sizeof(HullHold)},
                  {&b->works.sums, b->setup.works ? sizeof(FluidWorks) : 0}};
     size_t size = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 5; i++) {
         if (to && parts[i].size) memcpy(to + size, parts[i].data, parts[i].size);
         if (from && parts[i].size) memcpy(parts[i].data, from + size, parts[i].size);
         size += parts[i].size;
@@ -492,7 +496,11 @@ static void cpu_place(Backend *b, const Advance *advance) { b->table->place(b, a
 
 static void cpu_advance(Backend *b, const Advance *advance, ParticleSums *sums)
 {
+    b->sweep.gravity[0] = (float)advance->drive[0];
+    b->sweep.gravity[1] = (float)advance->drive[1];
     b->table->advance(b, advance, sums);
+    if (EFFECTS_BUILT && (advance->passes[0] != 0 || advance->passes[1] != 0))
+        cpu_convey(b, advance);
 }
 
 const BackendTable *backend_cpu(void)

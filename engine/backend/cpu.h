@@ -67,6 +67,12 @@ typedef struct HullHold {
     int64_t impulse[6]; ///< of held water on the body and about the pose's origin, in quanta
 } HullHold;
 
+/// Where the ring's lattice ends upstream, along x and along y; private to cpu_conveyor.c.
+typedef struct Conveyor {
+    Vec3 *site[2]; ///< mean places of the last layer at t = 0 [site_count]
+    int site_count[2];
+} Conveyor;
+
 struct Backend {
     BackendSetup setup;
     Grid grid;
@@ -79,7 +85,7 @@ struct Backend {
     SortScratch scratch;
     Rows rows;
     char *meet;             ///< [slabs + 1][blocks + 2] what sweeps of slabs and blocks share
-    Vec3 *moving_reference; ///< by id
+    Vec3 *moving_reference; ///< by id; the ring's go with the current
     int16_t *moving_owner;  ///< by id
     const SweepTable *table;
     Sweep sweep;
@@ -94,6 +100,7 @@ struct Backend {
     HullHold *hulls; ///< [body_count]
     double strayed;  ///< farthest that water has gone since the sort [m]
     Works works;
+    Conveyor conveyor;
 };
 
 double cpu_clock(void);
@@ -133,6 +140,9 @@ bool hulls_create(Backend *backend, Arena *arena, Error *error);
 void hulls_hold(Backend *backend, const Advance *advance, double fastest);
 /// What held water gave the bodies since it was last asked, as loads over the last step.
 void hulls_give(Backend *backend, const Vec3 *about, BodyLoad *loads);
+bool conveyor_create(Backend *backend, Arena *arena, Error *error);
+/// Let a layer of water in and out, at the end of the step in which it has come.
+void cpu_convey(Backend *backend, const Advance *advance);
 bool works_create(Backend *backend, Arena *arena, Error *error);
 void works_before_momentum(Backend *backend);
 void works_after_forces(Backend *backend);

@@ -94,6 +94,8 @@ static void hold_before_ring(const Backend *b, ParticleSet *f, const Advance *ad
             if (at >= low && at <= high) continue;
             mean[outside] = vec3((double)place[0][k], (double)place[1][k], (double)place[2][k]);
             *(a == 0 ? &mean[outside].x : &mean[outside].y) = (double)side;
+            mean[outside].x -= advance->carried[0];
+            mean[outside].y -= advance->carried[1];
             who[outside++] = k;
         }
         if (!outside) continue;

@@ -121,6 +121,7 @@ void works_after_kick(Backend *b, const Advance *advance)
 {
     Works *w = &b->works;
     double dt = advance->dt, inner = 0, plain = 0, full = 0, relaxed = 0, kicked = 0;
+    double driven = 0;
     for (int i = 0; i < b->fluid.cluster_count * CLUSTER; i++) {
         if (b->fluid.id[i] < 0) continue;
         double before[3], after[3];
@@ -130,6 +131,7 @@ void works_after_kick(Backend *b, const Advance *advance)
             inner += w->rate[INNER][a][i] * middle;
             plain += w->rate[PLAIN][a][i] * middle;
             full += w->rate[FULL][a][i] * middle;
+            if (a < 2) driven += b->sweep.gravity[a] * middle;
             relaxed += now * now - after[a] * after[a];
             kicked += after[a] * after[a] - before[a] * before[a];
             w->velocity[a][i] = (float)now;
@@ -142,6 +144,7 @@ void works_after_kick(Backend *b, const Advance *advance)
     w->sums.pressure += scale * inner;
     w->sums.walls += scale * (plain - inner);
     w->sums.viscosity += scale * (full - plain);
+    w->sums.current += mass * dt * driven;
     w->sums.last_kick = 0.5 * mass * kicked;
     if (advance->zone.width > 0) w->sums.zone += 0.5 * mass * relaxed;
     // what moving dummies do to the water, by their velocities before and in this step

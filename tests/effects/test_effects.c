@@ -41,6 +41,7 @@ static bool belongs_to_an_effect(const char *what)
                                         "owners",
                                         "works",
                                         "references",
+                                        "sites",
                                         "waves",
                                         "particles.correction",
                                         "particles.stress",
@@ -135,6 +136,7 @@ TEST(still_water_clocks_no_time_for_what_it_leaves_out)
                                           CLOCK_RING,
                                           CLOCK_PISTON,
                                           CLOCK_ZONE,
+                                          CLOCK_CONVEYOR,
                                           CLOCK_WORKS};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         CHECK(clock[others[i]] == 0);
@@ -166,6 +168,7 @@ TEST(what_is_called_for_is_called_kept_and_clocked)
 {
     // the counters above count
     Scene scene = basin_2d(0.05);
+    scene.waves.current.speed = 0.3;
     scene.body_count = 1;
     BodyScene *box = &scene.bodies[0];
     *box = body_scene_default();
@@ -176,7 +179,8 @@ TEST(what_is_called_for_is_called_kept_and_clocked)
     CHECK(entered > 1000);
     CHECK(bytes_of_effects > 0 && sets == 3 && lists == 5);
     static const EffectId on[] = {EFFECT_RING,   EFFECT_ZONE,   EFFECT_MOVING_BOUNDARIES,
-                                  EFFECT_BODIES, EFFECT_GAUGES, EFFECT_BODY_MOTION};
+                                  EFFECT_BODIES, EFFECT_GAUGES, EFFECT_BODY_MOTION,
+                                  EFFECT_CURRENT};
     for (size_t i = 0; i < sizeof on / sizeof *on; i++)
         CHECK(run->state->effect_seconds[on[i]] > 0);
     CHECK(run->state->effect_seconds[EFFECT_PISTON] == 0);

@@ -475,13 +475,13 @@ TEST(in_a_domain_of_lines_waves_ride_on_the_current_and_nothing_flows_back)
     scene->domain.kind = DOMAIN_LINES;
     WaveState still = waves_create(scene);
     CHECK(still.layers[0].train.terms.mean_velocity == 0);
-    scene->waves.current = (Current){0.4, 0.3 + PI / 3};
-    CHECK_NEAR(waves_current_along(scene, 0.3), 0.2, 1e-12);
-    CHECK_NEAR(vec3_norm(waves_current(scene)), 0.4, 1e-12);
+    scene->waves.current = (Current){0.4, 0.3 + PI / 3, 0};
+    CHECK_NEAR(current_along(&scene->waves.current, 0.3), 0.2, 1e-12);
+    CHECK_NEAR(vec3_norm(current_velocity(&scene->waves.current, 3)), 0.4, 1e-12);
     WaveState waves = waves_create(scene);
     const WaveTerms *w = &waves.layers[0].train.terms;
-    double sigma = w->angular_frequency - 0.2 * w->wave_number; // Doppler
-    CHECK_NEAR(w->angular_frequency, 2 * PI / 1.4, 1e-9);
+    double sigma = w->angular_frequency; // in the water; Doppler makes it the one asked for
+    CHECK_NEAR(sigma + 0.2 * w->wave_number, 2 * PI / 1.4, 1e-9);
     CHECK_NEAR(GRAVITY * w->wave_number * tanh(w->wave_number * 2) / (sigma * sigma), 1, 0.01);
     CHECK(w->wave_number < 0.9 * still.layers[0].train.terms.wave_number);
     CHECK(w->mean_velocity == 0); // who asks adds the current

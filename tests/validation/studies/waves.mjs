@@ -5,12 +5,19 @@ import { fit, largest, mean, smallest, window } from '../signal.mjs';
 
 const PERIODS = 6; // at the end of a run, that are looked at
 
-/// The row of the reference waves with this height and period.
-function referenceWave({ height_m: height, period_s: period }, depth) {
-  const table = reference('stokes_fenton/waves_without_transport.csv');
-  const at = (key) => table.column(key);
-  const row = at('H_m').findIndex((h, i) => h === height && at('T_s')[i] === period && at('d_m')[i] === depth);
-  return Object.fromEntries(table.names.map((key) => [key, at(key)[row]]));
+/// What flows along the waves [m/s].
+function currentAlong({ current, heading_deg: heading = 0 }) {
+  return current ? current.speed_ms * Math.cos((heading - (current.heading_deg ?? 0)) * Math.PI / 180) : 0;
+}
+
+/// The row of the reference waves with this height and period; on a current the wave that has it in the water, where
+/// its length over c + U is the period of a fixed place. c_m_s is then c + U.
+function referenceWave(waves, depth) {
+  const table = reference('stokes_fenton/waves_without_transport.csv'), flows = currentAlong(waves);
+  const rows = table.column('H_m').map((_, i) => Object.fromEntries(table.names.map((key) => [key, table.column(key)[i]])));
+  const row = rows.find((wave) => wave.H_m === waves.height_m && wave.d_m === depth &&
+    (flows ? Math.abs(wave.lambda_m / (wave.c_m_s + flows) / waves.period_s - 1) < 1e-5 : wave.T_s === waves.period_s));
+  return { ...row, c_m_s: row.c_m_s + flows };
 }
 
 /// Height, crest and complex amplitude of the mean wave at a gauge over the last periods: five harmonics. Single crests
@@ -138,5 +145,11 @@ export const studies = [
     reference: SOURCE,
     compare: (simulate) => compareLine(`waves_${kind}_${which}`, until, simulate),
   }))),
+  ...['with', 'against'].map((way) => ({
+    name: `waves_current_${way}`,
+    title: sceneOf(`waves_current_${way}`).title,
+    reference: `${SOURCE}, Galileo`,
+    compare: (simulate) => compareLine(`waves_current_${way}`, 20, simulate),
+  })),
   { name: 'waves_headings', title: 'The same wave over headings in a 3-D basin', reference: SOURCE, compare: compareHeadings },
 ];
