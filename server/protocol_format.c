@@ -119,6 +119,18 @@ static void write_limits(Json *json, const Waves *waves)
     json_object_end(json);
 }
 
+static void write_current(Json *json, const Current *current)
+{
+    if (!(current->speed > 0)) {
+        json_null(json, "current");
+        return;
+    }
+    json_object(json, "current");
+    json_number(json, "speed_ms", current->speed);
+    json_number(json, "heading_deg", current->heading * 180.0 / PI);
+    json_object_end(json);
+}
+
 void protocol_format_hello(Text *text, const HelloInfo *info)
 {
     const Scene *scene = info->scene;
@@ -146,6 +158,7 @@ void protocol_format_hello(Text *text, const HelloInfo *info)
     write_names(&json, scene);
     write_winches(&json, scene);
     write_limits(&json, &scene->waves);
+    write_current(&json, &scene->waves.current);
     json_object(&json, "camera");
     write_camera(&json, &info->view->camera);
     json_object_end(&json);

@@ -102,6 +102,7 @@ test('hello brings hello, status, series and pictures', async () => {
     const effects = readFileSync(new URL('../../engine/effects.def', import.meta.url), 'utf8');
     assert.equal(client.hello.effects.length, effects.match(/^EFFECT\(/gm).length);
     assert.ok(Math.abs(client.hello.limits.heading_deg[1] - 180) < 1e-6);
+    assert.equal(client.hello.current, null);
     const status = await client.next('status');
     assert.equal(status.state, 'running');
     const picture = await client.next('picture');

@@ -45,6 +45,7 @@ const HELLO = {
   gauges: ["g1", "g2"],
   winches: [{ length_m: [5, 7], speed_ms: 0.2 }],
   limits: { height_m: [0.05, 0.4], period_s: [1.2, 2.6], heading_deg: [-180, 180] },
+  current: null,
   warnings: ["The undriven interior is shorter than one wave length at the longest period allowed."],
   effects: [
     effect("artificial_viscosity", "pair", true, "alpha is 0.002"),

@@ -9,6 +9,8 @@ type Props = {
   asked: number;
   now: number;
   limits: Range;
+  /** Where the current flows to; NaN without. */
+  current: number;
   disabled: boolean;
   onTurn: (heading_deg: number) => void;
 };
@@ -41,7 +43,7 @@ function keyTurn(event: KeyboardEvent, asked: number, limits: Range): number | n
   }
 }
 
-export function Dial({ asked, now, limits, disabled, onTurn }: Props) {
+export function Dial({ asked, now, limits, current, disabled, onTurn }: Props) {
   const svg = useRef<SVGSVGElement>(null);
   const turnTo = (event: PointerEvent): void => {
     const box = svg.current?.getBoundingClientRect();
@@ -101,6 +103,11 @@ export function Dial({ asked, now, limits, disabled, onTurn }: Props) {
       <text class="axis" x={-9} y={-RADIUS + 19}>
         y
       </text>
+      {Number.isFinite(current) && (
+        <path class="current" d="M58 0 44-6v4H30v4H44v4Z" transform={`rotate(${-current})`}>
+          <title>current</title>
+        </path>
+      )}
       {Number.isFinite(now) && <Needle kind="now" degrees={now} />}
       {known && <Needle kind="asked" degrees={asked} />}
       <circle r={3} class="hub" />

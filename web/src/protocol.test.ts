@@ -40,6 +40,7 @@ const HELLO = {
   gauges: [],
   winches: [{ length_m: [4, 8], speed_ms: 0.1 }, null],
   limits: { height_m: [0.05, 0.4], period_s: [1, 2.6], heading_deg: [-180, 180] },
+  current: { speed_ms: 0.3, heading_deg: 30 },
   camera: { azimuth_deg: 120, elevation_deg: 15, distance_m: 8, target_m: [0, 0, 0] },
   view: { width: 960, height: 540, water: "surface", field: "none", dark: false },
   warnings: ["coarse"],
@@ -57,6 +58,7 @@ test("a hello and a status as documented are read", () => {
   const hello = parse(HELLO);
   assert.equal(hello.type, "hello");
   assert.deepEqual(hello.type === "hello" && hello.limits?.heading_deg, [-180, 180]);
+  assert.equal(hello.type === "hello" && hello.current?.heading_deg, 30);
   const status = parse(STATUS);
   assert.equal(status.type === "status" && status.wave?.now.heading_deg, 10);
   assert.equal(status.type === "status" && status.shares.get("base"), 0.6);

@@ -55,6 +55,10 @@ export type WaveKey = keyof Wave;
 const limits = object({ height_m: range, period_s: range, heading_deg: range });
 export type Limits = Value<typeof limits>;
 
+const current = object({ speed_ms: number, heading_deg: number });
+/** A steady current: its full speed and where it flows to. */
+export type Current = Value<typeof current>;
+
 const winch = object({ length_m: range, speed_ms: number });
 /** What may be done to a line's length: the whole line's shortest and longest, and how fast. */
 export type Winch = Value<typeof winch>;
@@ -98,6 +102,7 @@ const hello = object({
   gauges: list(text),
   winches: list(orNull(winch)),
   limits: orNull(limits),
+  current: orNull(current),
   camera,
   view,
   warnings: list(text),

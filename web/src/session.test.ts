@@ -40,7 +40,7 @@ const CAMERA = { azimuth_deg: 10, elevation_deg: 20, distance_m: 5, target_m: [0
 const HELLO = {
   type: "hello", protocol: 1, version: "0", case: { name: "c", title: "C", hash: "1" }, backend: "cpu", threads: 1,
   renderer: "r", particles: 1, spacing_m: 1, columns: ["t_s", "a.heave_m"], bodies: ["a"], lines: ["l"], gauges: [], winches: [null],
-  limits: { height_m: [0, 1], period_s: [1, 2], heading_deg: [0, 360] }, camera: CAMERA,
+  limits: { height_m: [0, 1], period_s: [1, 2], heading_deg: [0, 360] }, current: null, camera: CAMERA,
   view: { width: 960, height: 540, water: "particles", field: "none", dark: false }, warnings: [], effects: [],
 };
 const SEA = { height_m: 0.2, period_s: 1.5, heading_deg: 0 };

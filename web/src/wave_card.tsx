@@ -1,8 +1,8 @@
 /** The sea: height, period and heading. What is asked acts at once; what is now stands beside it. */
 import { useEffect, useRef } from "preact/hooks";
 import { Dial } from "./dial.tsx";
-import { dusted, fixed } from "./format.ts";
-import type { Limits, WaveKey } from "./protocol.ts";
+import { dusted, fixed, significant } from "./format.ts";
+import type { Current, Limits, WaveKey } from "./protocol.ts";
 import type { Session } from "./session.ts";
 
 type Quantity = { key: WaveKey; label: string; unit: string; digits: number; step: number };
@@ -15,6 +15,7 @@ const QUANTITIES: readonly Quantity[] = [
 
 export function WaveCard({ session }: { session: Session }) {
   const limits = session.hello.value?.limits;
+  const current = session.hello.value?.current ?? null;
   const changing = session.status.value?.wave?.changing ?? false;
   const disabled = !session.connected.value;
   return (
@@ -31,6 +32,7 @@ export function WaveCard({ session }: { session: Session }) {
               asked={session.asked.value.heading_deg}
               now={session.now.value.heading_deg}
               limits={limits.heading_deg}
+              current={current ? current.heading_deg : NaN}
               disabled={disabled}
               onTurn={(heading_deg) => session.setWave({ heading_deg })}
             />
@@ -43,12 +45,22 @@ export function WaveCard({ session }: { session: Session }) {
             {QUANTITIES.map((quantity) => (
               <QuantityRow key={quantity.key} session={session} quantity={quantity} limits={limits} />
             ))}
+            {current && <CurrentLine current={current} />}
           </div>
         </fieldset>
       ) : (
         <p class="empty">{session.hello.value ? "This case has no waves that can be steered." : "–"}</p>
       )}
+      {current && !limits && <CurrentLine current={current} />}
     </section>
+  );
+}
+
+function CurrentLine({ current }: { current: Current }) {
+  return (
+    <p class="current">
+      Current {significant(current.speed_ms, 3)} m/s to {fixed(current.heading_deg, 0)}°
+    </p>
   );
 }
 
