@@ -12,6 +12,11 @@
 
 #include "physics/rigid.h"
 
+static bool is_imposed(FreedomKind kind)
+{
+    return kind == FREEDOM_FIXED || kind == FREEDOM_PRESCRIBED;
+}
+
 /// Axes of the initial heading: what surge, sway and heave are counted along.
 static Quat heading_frame(const Body *body)
 {
@@ -40,12 +45,23 @@ static void reference_motion(const Body *body, double *value)
     value[4] = angle.y;
 }
 
+/// Roll, pitch, yaw off the initial heading. From the attitude alone a pitch beyond 90 deg would
+/// read as less, with roll and yaw of 180: where rotations are imposed, in 2-D above all, they are
+/// followed instead, as long as they mean the same attitude.
+static Vec3 angles_of(const Body *body, Quat attitude)
+{
+    if (!body->constrained) return quat_to_euler(attitude);
+    Quat q = quat_from_euler(body->angle.x, body->angle.y, body->angle.z);
+    double same = q.w * attitude.w + q.x * attitude.x + q.y * attitude.y + q.z * attitude.z;
+    return fabs(same) > 1 - 1e-10 ? body->angle : quat_to_euler(attitude);
+}
+
 BodyMotion body_motion(const Body *body)
 {
     BodyMotion motion;
     Vec3 duals[3];
     Quat frame = heading_frame(body);
-    Vec3 angle = quat_to_euler(quat_mul(quat_conjugate(frame), body->attitude));
+    Vec3 angle = angles_of(body, quat_mul(quat_conjugate(frame), body->attitude));
     Vec3 omega = frame_vector(frame, body->angular_velocity);
     vec3_to(frame_vector(frame, vec3_sub(body->position, body->reference_position)), motion.value);
     vec3_to(frame_vector(frame, body->velocity), motion.rate);
@@ -62,7 +78,8 @@ static void body_place(Body *body, const BodyMotion *motion)
     Vec3 axes[3], omega = vec3(0, 0, 0);
     Quat frame = heading_frame(body);
     const double *value = motion->value;
-    rigid_axes(vec3_from(value + 3), axes);
+    body->angle = vec3_from(value + 3);
+    rigid_axes(body->angle, axes);
     for (int i = 0; i < 3; i++)
         omega = vec3_mad(omega, axes[i], motion->rate[3 + i]);
     body->position = vec3_add(body->reference_position, quat_rotate(frame, vec3_from(value)));
@@ -103,6 +120,7 @@ Body body_create(const BodyScene *scene, const BodyGeometry *geometry)
         const Freedom *freedom = &scene->freedoms[i];
         motion.value[i] += scene->initial_offset[i];
         if (freedom->kind != FREEDOM_FIXED) body.moving = true;
+        if (i >= 3 && is_imposed(freedom->kind)) body.constrained = true;
         if (freedom->kind == FREEDOM_PRESCRIBED)
             prescribed(freedom, motion.value[i], 0, &motion.value[i], &motion.rate[i]);
         else if (freedom->kind != FREEDOM_FIXED && !(scene->hold_time > 0))
@@ -162,11 +180,6 @@ static Imposed imposed_at(const Body *body, const BodyScene *scene, bool held, d
     }
     if (body->motion) motion_add(body->motion, end, imposed.value, imposed.rate);
     return imposed;
-}
-
-static bool is_imposed(FreedomKind kind)
-{
-    return kind == FREEDOM_FIXED || kind == FREEDOM_PRESCRIBED;
 }
 
 /// Surge, sway, heave along the axes of the initial heading.
@@ -359,6 +372,7 @@ void body_advance(Body *body, const BodyScene *scene, double gravity, double tim
         vec3_add(body->reference_position, quat_rotate(frame, vec3_from(motion.value)));
     body->velocity = quat_rotate(frame, vec3_from(motion.rate));
     body->attitude = quat_normalise(quat_mul(frame, rotation.attitude));
+    body->angle = rotation.angle;
     body->angular_velocity = quat_rotate(frame, rotation.omega);
     body->acceleration = vec3_scale(vec3_sub(body->velocity, velocity), 1 / dt);
     body->angular_acceleration =

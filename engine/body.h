@@ -10,6 +10,7 @@
 typedef struct Body {
     Vec3 position;             ///< of the centre of gravity, world [m]
     Quat attitude;             ///< geometry axes to world
+    Vec3 angle;                ///< roll, pitch, yaw as followed: no jump beyond 90 deg of pitch
     Vec3 velocity;             ///< of the centre of gravity [m/s]
     Vec3 angular_velocity;     ///< world axes [rad/s]
     Vec3 acceleration;         ///< of the last step [m/s^2], used by the dummy extrapolation
@@ -27,6 +28,7 @@ typedef struct Body {
     double mass;
     double inertia[3][3];      ///< geometry axes, about the centre of gravity [kg m^2]
     bool moving;               ///< any degree of freedom that is not fixed
+    bool constrained;          ///< any rotation that is fixed or prescribed
     const MotionTable *motion; ///< added to prescribed freedoms; NULL = none. Borrowed
 } Body;
 

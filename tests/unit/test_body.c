@@ -311,6 +311,33 @@ TEST(a_constraint_torque_does_no_work_on_free_axes)
     CHECK_NEAR(body.attitude.y, begin.attitude.y, 1e-10);
 }
 
+TEST(a_body_in_a_plane_turns_over_and_reads_as_it_turns)
+{
+    BodyScene scene = scene_of_kind(FREEDOM_FIXED);
+    BodyGeometry geometry = geometry_asymmetric();
+    scene.freedoms[4].kind = FREEDOM_FREE;
+    scene.initial_velocity[4] = 3;
+    Body body = body_create(&scene, &geometry);
+    double begin = rotation_energy(&body), time = 0;
+    for (int i = 0; i < 4000; i++, time += 1e-3) { // nearly two turns
+        body_advance(&body, &scene, GRAVITY, time, 1e-3);
+        BodyMotion motion = body_motion(&body);
+        CHECK(motion.value[3] == 0 && motion.value[5] == 0);
+        CHECK_NEAR(motion.value[4], 3 * (time + 1e-3), 1e-9);
+        CHECK_NEAR(motion.rate[4], 3, 1e-9);
+    }
+    CHECK_NEAR(rotation_energy(&body) / begin, 1, 1e-9);
+    // driven, too
+    prescribe(&scene.freedoms[4], 170 * DEGREE, 2, 0);
+    body = body_create(&scene, &geometry);
+    for (int i = 0; i < 1000; i++) {
+        body_advance(&body, &scene, GRAVITY, i * 1e-3, 1e-3);
+        double end = (i + 1) * 1e-3 * PI;
+        CHECK_NEAR(body_motion(&body).value[4], 170 * DEGREE * sin(end), 1e-12);
+        CHECK_NEAR(vec3_norm(body.angular_velocity), 170 * DEGREE * PI * fabs(cos(end)), 1e-9);
+    }
+}
+
 TEST(constraints_hold_in_the_axes_of_the_initial_heading)
 {
     BodyScene scene = scene_of_kind(FREEDOM_FREE);

@@ -101,3 +101,29 @@ TEST(a_sick_step_is_rolled_back_and_tried_with_a_smaller_one)
     CHECK(run->state->density_error < HEALTH_EXCESS_LIMIT);
     finish(run);
 }
+
+TEST(a_box_that_capsizes_turns_over_and_stays_good)
+{
+    Scene scene = tank_2d(0.04);
+    scene.domain.min.z = -0.6;
+    scene.domain.max.z = 0.4;
+    scene.body_count = 1;
+    BodyScene *box = &scene.bodies[0];
+    *box = body_scene_default();
+    box->size = vec3(0.32, 1, 0.32);
+    box->position = vec3(0, 0, -0.04);
+    box->mass = 0.32 * 0.2 * 1000;
+    box->centre_of_gravity = vec3(0, 0, 0.1); // GM -0.12 m
+    box->initial_offset[4] = 5 * PI / 180;
+    for (int f = 0; f < 6; f++)
+        box->freedoms[f].kind = f == 0 || f == 2 || f == 4 ? FREEDOM_FREE : FREEDOM_FIXED;
+    Run *run = start(&scene, 2);
+    double most = 0;
+    while (run->state->time < 2.5) {
+        CHECK(step_advance(&run->scene, &run->plan, run->state, &error));
+        most = maxd(most, fabs(body_motion(&run->state->bodies[0]).value[4]));
+    }
+    CHECK(most > 150 * PI / 180);
+    CHECK(run->state->health.recoveries == 0);
+    finish(run);
+}
