@@ -211,6 +211,28 @@ TEST(water_flows_aslant_through_a_basin_in_space)
     finish(run);
 }
 
+TEST(a_box_that_floats_free_goes_with_the_current)
+{
+    Scene scene = stream_2d(0.025, 0.3);
+    scene.waves.current.ramp = 0.5;
+    scene.body_count = 1;
+    BodyScene *box = &scene.bodies[0];
+    *box = body_scene_default();
+    box->size = vec3(0.2, 1, 0.15);
+    box->position = vec3(-0.6, 0, NAN);
+    box->draft = 0.075;
+    for (int f = 0; f < 6; f++)
+        box->freedoms[f].kind = f == 0 || f == 2 || f == 4 ? FREEDOM_FREE : FREEDOM_FIXED;
+    Run *run = start(&scene, 2);
+    advance_to(run, 1.5);
+    double from = run->state->bodies[0].position.x, begun = run->state->time;
+    advance_to(run, 4);
+    double speed = (run->state->bodies[0].position.x - from) / (run->state->time - begun);
+    printf("  %.3f m/s\n", speed);
+    CHECK_NEAR(speed, 0.3, 0.015);
+    finish(run);
+}
+
 TEST(a_current_that_grows_does_not_tilt_the_surface)
 {
     Scene scene = stream_2d(0.025, 0.5);
