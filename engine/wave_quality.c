@@ -141,8 +141,9 @@ static double settling(const Scene *scene, const WaveState *waves)
     const Domain *d = &scene->domain;
     double way = d->max.x - d->min.x;
     if (d->kind == DOMAIN_BASIN) way = 0.5 * way;
-    double period = 2 * PI / w->angular_frequency;
-    return SETTLE_PERIODS * period + way / (0.5 * w->frame_speed);
+    // against a current that all but stops them waves take long
+    double group = 0.5 * w->frame_speed + current_along(&waves->current, waves->asked.heading);
+    return SETTLE_PERIODS * waves->asked.period + way / maxd(group, 0.05 * w->frame_speed);
 }
 
 /// Adds what one gauge did between two samples, by the trapezoidal rule.
