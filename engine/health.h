@@ -7,8 +7,7 @@
 
 /// Limits that a healthy run never touches.
 static const double HEALTH_EXCESS_LIMIT = 0.25;    ///< |rho/rho0 - 1| [-]
-static const double HEALTH_SPEED_LIMIT = 1.0;      ///< fluid speed over sound speed [-]; jets of
-                                                   ///< an impact come to two thirds
+static const double HEALTH_SPEED_LIMIT = 0.6;      ///< fluid speed over sound speed [-]
 static const double HEALTH_CHECKPOINT_EVERY = 0.1; ///< simulated time between checkpoints [s]
 static const double HEALTH_LOST_LIMIT = 0.01;      ///< particles beyond the walls, of all [-]
 enum {

@@ -271,6 +271,7 @@ static bool check_waves(const JsonReader *reader, const Scene *scene)
     TRY(check_spectrum(reader, scene));
     return check_zone(reader, scene);
 }
+
 double case_particle_estimate(const Scene *scene, double spacing)
 {
     const Domain *domain = &scene->domain;

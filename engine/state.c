@@ -41,7 +41,7 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     const double high[3] = {d->max.x, d->max.y, INFINITY};
     bool waves = scene->waves.kind != WAVES_NONE;
     bool ring = scene_has_ring(scene), piston = waves && d->kind == DOMAIN_FLUME;
-    // on a current the ring's lattice goes on by a pitch before it is set back
+    // on a current water goes on by a pitch before a layer of it leaves
     const double wall_reach =
         plan->wall_reach + (ring && scene->waves.current.speed > 0 ? s.spacing : 0);
     for (int a = 0; a < 3; a++) {

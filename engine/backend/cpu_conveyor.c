@@ -289,7 +289,7 @@ static void highest_last(const Passage *p, const Ranking *list, int count)
 
 /// As many come in as have gone beyond the ring's face, but no more than a layer has; the highest
 /// places stay empty. Were a whole layer taken out each time, the face would move upstream, by
-/// half a spacing in 12 s of steep waves: water takes more room once its lattice has melted.
+/// 0.4 spacings in 12 s of steep waves: water takes more room once its lattice has melted.
 static void let_through(const Passage *p)
 {
     Backend *b = p->backend;
