@@ -22,7 +22,7 @@ static const double COURANT = 1.1;
 
 /// (chosen) Speed of the water that a body strikes over the body's: where c0 is ten times the
 /// body's own speed, a wedge of 30 deg deadrise has 9 % less force than it should and one of 20 deg
-/// 24 % less, at twenty times it is right (docs/physics.md, sound).
+/// 24 % less, at twenty times 0 and 7 % less (docs/physics.md, fluid).
 static const double STRIKE_RATIO = 2;
 
 /// How far a body stands above still water at the start [m]; negative when it is in it.
