@@ -227,8 +227,8 @@ BenchFlops bench_flops(void)
     // as none.
     enum {
         DISTANCE = 8,  // three differences, three squares, two sums
-        CLOSENESS = 3, // root, 2h - r, max
-        SLOPE = 2,     // closeness^3
+        CLOSENESS = 4, // root, over 2h, 1 - that, max
+        SLOPE = 2,     // closeness^3: bench's scenes have Wendland's kernel
         APPROACH = 8,  // v_ik . x_ik: three differences, three products, two sums
         VISCOUS = 5,   // min, product, r^2 + eta^2, division, sum with the pressures
         PUSH = 5,      // P_i + P_k, times the slope, times x_ik

@@ -115,7 +115,8 @@ static void write_fluid(const Box *box, Fill *fill, int n, Vec3 mean, Vec3 shift
     }
     double h = box->scene->fluid.smoothing_ratio * box->scene->fluid.spacing;
     below +=
-        h * surface_head(maxd(0, below) / h, surface_head_most(box->scene->fluid.smoothing_ratio));
+        h * surface_head(maxd(0, below) / h, surface_head_most(box->scene->fluid.kernel,
+                                                               box->scene->fluid.smoothing_ratio));
     fill->fluid_excess[n] =
         (float)hydrostatic_excess(below, box->scene->fluid.gravity, box->plan->sound_speed);
 }

@@ -286,12 +286,15 @@ static void warn_of_travel(const Scene *scene, Plan *plan)
              used ? "; " : "", plan->wall_reach, first);
 }
 
-/// The lattice of plain gradients yields around what drifts slowly (measured, docs/physics.md).
+/// The lattice of Wendland's kernel and plain gradients yields around what drifts slowly (measured,
+/// docs/physics.md).
 static void warn_of_drift(const Scene *scene, Plan *plan)
 {
     const Fluid *fluid = &scene->fluid;
     if (scene->domain.kind == DOMAIN_LINES || scene->line_count) return;
-    if (fluid->gradient == GRADIENT_CORRECTED || fluid->viscosity > 0) return;
+    if (fluid->kernel == KERNEL_YIELDING || fluid->gradient == GRADIENT_CORRECTED ||
+        fluid->viscosity > 0)
+        return;
     for (int b = 0; b < scene->body_count; b++) {
         const BodyScene *body = &scene->bodies[b];
         bool drifts = body->freedoms[0].kind == FREEDOM_FREE ||
@@ -299,8 +302,8 @@ static void warn_of_drift(const Scene *scene, Plan *plan)
         size_t used = strlen(plan->warnings), size = sizeof plan->warnings;
         if (!drifts) continue;
         snprintf(plan->warnings + used, size - used,
-                 "%sbody %s may drift: the lattice of plain gradients brakes slow drift "
-                 "(fluid.gradient \"corrected\" does far less, at 1.8 times the cost of a step)",
+                 "%sbody %s may drift: the lattice of Wendland's kernel brakes slow drift "
+                 "(fluid.kernel \"yielding\" does far less)",
                  used ? "; " : "", body->name);
         return;
     }
@@ -333,7 +336,9 @@ static bool build(const Scene *scene, Plan *plan, Error *error)
     const BackendTable *table = backend_choose(plan->options.backend, error);
     TRY(table);
     plan->backend = table->name;
-    snprintf(plan->variant, sizeof plan->variant, "half-pair clusters of 8, %s", table->variant());
+    const char *kernel = scene->fluid.kernel == KERNEL_YIELDING ? "yielding" : "Wendland";
+    snprintf(plan->variant, sizeof plan->variant, "half-pair clusters of 8, %s, %s kernel",
+             table->variant(), kernel);
     double dp = scene->fluid.spacing;
     plan->smoothing_length = scene->fluid.smoothing_ratio * dp;
     // a particle dp/2 from the wall sees layers at dp, 2 dp, …: those below 2h count

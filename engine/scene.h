@@ -14,6 +14,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/portable.h"
+#include "physics/kernel_kind.h"
 
 enum {
     SCENE_NAME_SIZE = 48,
@@ -58,6 +59,7 @@ typedef enum WallKind { WALLS_SLIP, WALLS_NO_SLIP } WallKind;
 typedef struct Fluid {
     double spacing;            ///< initial particle distance dp [m], > 0
     double smoothing_ratio;    ///< h/dp, 1.2 to 3
+    Kernel kernel;             ///< physics/kernel.h
     double density;            ///< rest density [kg/m^3]
     double alpha;              ///< artificial viscosity [-]
     double delta;              ///< density diffusion [-]

@@ -38,6 +38,7 @@ static const JsonTable STANDING_TABLE = {STANDING_FIELDS, COUNT(STANDING_FIELDS)
 static const JsonField FLUID_FIELDS[] = {
     {"spacing_m", FIELD_NUMBER, IN_CASE(scene.fluid.spacing), LENGTH_UP_TO(10)},
     {"smoothing_ratio", FIELD_NUMBER, IN_CASE(scene.fluid.smoothing_ratio), .min = 1.2, .max = 3},
+    {"kernel", FIELD_CHOICE, IN_CASE(scene.fluid.kernel), .choices = {"wendland", "yielding"}},
     {"density_kgm3", FIELD_NUMBER, IN_CASE(scene.fluid.density), .min = 100, .max = 20000, .unit = "kg/m3"},
     {"alpha", FIELD_NUMBER, IN_CASE(scene.fluid.alpha), .max = 1},
     {"delta", FIELD_NUMBER, IN_CASE(scene.fluid.delta), .max = 1},

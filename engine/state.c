@@ -23,6 +23,7 @@ static BackendSetup backend_setup(const Scene *scene, const Plan *plan)
     s.spacing = scene->fluid.spacing;
     s.smoothing_length = plan->smoothing_length;
     s.particle_mass = plan->particle_mass;
+    s.kernel = scene->fluid.kernel;
     s.rest_density = scene->fluid.density;
     s.sound_speed = plan->sound_speed;
     s.alpha = scene->fluid.alpha;

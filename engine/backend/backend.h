@@ -16,6 +16,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/portable.h"
+#include "physics/kernel_kind.h"
 
 /// Who moves a dummy particle; bodies are 0, 1, …
 enum { OWNER_FIXED = -3, OWNER_PISTON = -2, OWNER_RING = -1 };
@@ -52,6 +53,7 @@ typedef struct BackendSetup {
     double barrier_min[3], barrier_max[3]; ///< planes of fixed walls and bed [m]; infinite = none
     double barrier_top;                    ///< z of the walls' upper edge [m]
     double spacing, smoothing_length, particle_mass; ///< [m], [m], [kg]
+    Kernel kernel;
     double rest_density, sound_speed, alpha, delta;
     double viscosity;      ///< kinematic [m^2/s]
     double shifting;       ///< A of physics/shift.h [-]

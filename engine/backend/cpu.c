@@ -106,9 +106,9 @@ static Sweep make_sweep(Backend *b)
     sweep.wall_fluid[1] = &b->moving_fluid;
     sweep.moving_owner = b->moving_owner;
     sweep.constants =
-        sweep_constants(s->smoothing_length, s->dimensions, b->grid.unit, s->particle_mass,
-                        s->rest_density, s->sound_speed, s->alpha, s->delta);
-    sweep.viscous = viscous_constants(s->smoothing_length, s->dimensions, b->grid.unit,
+        sweep_constants(s->kernel, s->smoothing_length, s->dimensions, b->grid.unit,
+                        s->particle_mass, s->rest_density, s->sound_speed, s->alpha, s->delta);
+    sweep.viscous = viscous_constants(s->kernel, s->smoothing_length, s->dimensions, b->grid.unit,
                                       s->particle_mass / s->rest_density, s->spacing,
                                       s->rest_density, s->viscosity);
     sweep.gravity[2] = (float)-s->gravity;
@@ -116,8 +116,9 @@ static Sweep make_sweep(Backend *b)
     sweep.rest_density = (float)s->rest_density;
     sweep.unit = (float)b->grid.unit;
     sweep.dimensions = s->dimensions;
-    // 5 alpha_D/h^2 of the slope, (2h)^2 of the offsets, V = m/rho0
-    sweep.moment_factor = (float)(20 * kernel_constant(s->smoothing_length, s->dimensions) *
+    // K of the slope, (2h)^2 of the offsets, V = m/rho0
+    double h = s->smoothing_length;
+    sweep.moment_factor = (float)(kernel_slope_constant(s->kernel, h, s->dimensions) * 4 * h * h *
                                   s->particle_mass / s->rest_density);
     sweep.shift = shift_constants(s->shifting, (double)sweep.moment_factor, s->dimensions);
     return sweep;
@@ -161,10 +162,10 @@ static bool cpu_create(const BackendSetup *setup, const ParticleStart *start, Ar
         (float)tension_floor(setup->gravity, setup->smoothing_length, setup->sound_speed);
     double h = setup->smoothing_length;
     b->surface = surface_excess_of(setup->gravity * h / (setup->sound_speed * setup->sound_speed),
-                                   surface_head_most(h / setup->spacing));
-    b->excess_alone = (float)excess_alone(setup->smoothing_length, setup->dimensions,
+                                   surface_head_most(setup->kernel, h / setup->spacing));
+    b->excess_alone = (float)excess_alone(setup->kernel, setup->smoothing_length, setup->dimensions,
                                           setup->particle_mass, setup->rest_density);
-    b->table = sweep_table_choose();
+    b->table = sweep_table_choose(setup->kernel);
     b->first_step = true;
     if (b->fixed.count) {
         set_sort(&b->fixed, &b->grid, &b->scratch);
@@ -183,7 +184,7 @@ static void cpu_destroy(Backend *b)
         list_destroy(lists[i]);
 }
 
-static const char *cpu_variant(void) { return sweep_table_choose()->level; }
+static const char *cpu_variant(void) { return sweep_table_choose(KERNEL_WENDLAND)->level; }
 
 static void refresh_boxes(ParticleSet *set, int threads)
 {

@@ -5,13 +5,13 @@
 #include "backend/visits.h"
 
 /// Moments: one particle and the eight at `base`, which have the same share in each other's.
-FN void visit_moment(const Self *self, const Arrays *other, size_t base, float support,
+FN void visit_moment(const Self *self, const Arrays *other, size_t base, float per_support,
                      const Terms *react, Symmetric *sum)
 {
     Offset d = offset_to(self, other, base);
     // lengths over the support: their fifth power in units would not be a float
-    Lanes scale = lanes_all(1.0f / support);
-    Lanes slope = kernel_slope(scale * pair_closeness(offset_square(d), support));
+    Lanes scale = lanes_all(per_support);
+    Lanes slope = kernel_slope(pair_closeness(offset_square(d), per_support));
     Symmetric m = gradient_moment(slope, scale * d.x, scale * d.y, scale * d.z);
     *sum = terms_sum(*sum, m);
     if (react) terms_store(react, base, terms_sum(terms_load(react, base), m));
@@ -20,24 +20,24 @@ FN void visit_moment(const Self *self, const Arrays *other, size_t base, float s
 FN void moment_of_particle(const Sweep *sweep, const Arrays *fluid, const Terms *terms, int i,
                            int l)
 {
-    const float support = sweep->constants.support;
+    const float per_support = sweep->constants.per_support;
     const Self self = self_of(fluid, i * CLUSTER + l);
     Symmetric sum = no_terms();
     Visits visits = visits_of(sweep->fluid_fluid, i, l);
     for (size_t base; visits_next(&visits, &base);)
-        visit_moment(&self, fluid, base, support, terms, &sum);
-    visit_moment(&self, fluid, (size_t)i * CLUSTER, support, NULL, &sum);
+        visit_moment(&self, fluid, base, per_support, terms, &sum);
+    visit_moment(&self, fluid, (size_t)i * CLUSTER, per_support, NULL, &sum);
     for (int set = 0; set < 2; set++) {
         if (!has_walls(sweep, set, i)) continue;
         const Arrays walls = arrays_of(sweep->walls[set]);
         visits = visits_of(sweep->fluid_wall[set], i, l);
         for (size_t base; visits_next(&visits, &base);)
-            visit_moment(&self, &walls, base, support, NULL, &sum);
+            visit_moment(&self, &walls, base, per_support, NULL, &sum);
     }
     terms_add_total(terms, i * CLUSTER + l, sum);
 }
 
-void AT_LEVEL(gradient_moments)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(gradient_moments)(const Sweep *sweep, int begin, int end)
 {
     const Arrays fluid = arrays_of(sweep->fluid);
     const Terms terms = terms_of(sweep->fluid->correction);
@@ -47,7 +47,7 @@ void AT_LEVEL(gradient_moments)(const Sweep *sweep, int begin, int end)
                 moment_of_particle(sweep, &fluid, &terms, i, l);
 }
 
-void AT_LEVEL(gradient_invert)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(gradient_invert)(const Sweep *sweep, int begin, int end)
 {
     const Terms terms = terms_of(sweep->fluid->correction);
     const GradientLimits limits = gradient_limits(sweep->dimensions);
@@ -65,7 +65,7 @@ FN void visit_force(const Self *self, const Arrays *other, size_t base, const Sw
                     Symmetric weights, bool viscous, bool react, Lanes sum[3])
 {
     Offset d = offset_to(self, other, base);
-    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.support);
+    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.per_support);
     Lanes slope = kernel_slope(closeness), drag = lanes_all(0);
     // no pressures: what is left is viscosity
     if (viscous) drag = pair_force(closeness, r2, drag, approach_of(self, other, base, d), c);
@@ -130,17 +130,17 @@ FN void forces_of_clusters(const Sweep *sweep, int begin, int end, bool viscous)
                 force_of_particle(sweep, &fluid, &terms, i, l, viscous);
 }
 
-void AT_LEVEL(gradient_plain)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(gradient_plain)(const Sweep *sweep, int begin, int end)
 {
     forces_of_clusters(sweep, begin, end, false);
 }
-void AT_LEVEL(gradient_viscous)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(gradient_viscous)(const Sweep *sweep, int begin, int end)
 {
     forces_of_clusters(sweep, begin, end, true);
 }
 
 /// What water pushes a dummy with is what the dummy pushes it with.
-void AT_LEVEL(gradient_loads)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(gradient_loads)(const Sweep *sweep, int begin, int end)
 {
     ParticleSet *wall = sweep->walls[1];
     const SweepConstants c = sweep->constants;

@@ -33,7 +33,8 @@ static void column_colour(const Backend *b, double x, double y, double z0, doubl
 {
     const ParticleSet *f = &b->fluid;
     double h = b->setup.smoothing_length, volume = b->setup.particle_mass / b->setup.rest_density;
-    double scale = volume * kernel_constant(h, b->setup.dimensions), reach = 2 * h / b->grid.unit;
+    double scale = volume * kernel_constant(KERNEL_WENDLAND, h, b->setup.dimensions),
+           reach = 2 * h / b->grid.unit;
     int32_t cx = to_coordinate(&b->grid, 0, x), cy = to_coordinate(&b->grid, 1, y);
     for (int k = 0; k < count; k++)
         colour[k] = 0;
@@ -50,7 +51,7 @@ static void column_colour(const Backend *b, double x, double y, double z0, doubl
             for (int k = 0; k < count; k++) {
                 double d = z0 + k * dz - z, r = sqrt(dx * dx + dy * dy + d * d);
                 float s = (float)(1 - r / (2 * h));
-                if (s > 0) colour[k] += scale * kernel_value(s);
+                if (s > 0) colour[k] += scale * wendland_value(s);
             }
         }
     }
@@ -159,7 +160,7 @@ static bool next_near(Near *near)
                           b->grid.unit * (f->position[2][i] - near->at[2]));
         float s = (float)(1 - vec3_norm(near->from) / (2 * b->setup.smoothing_length));
         if (s <= 0) continue;
-        near->weight = kernel_value(s);
+        near->weight = wendland_value(s);
         return true;
     }
     return false;
@@ -187,7 +188,8 @@ void cpu_velocity(Backend *b, Vec3 point, Vec3 *velocity, double *share)
             sum[a] += near.weight * b->fluid.field[VELOCITY_X + a][near.slot];
     }
     double volume = b->setup.particle_mass / b->setup.rest_density;
-    *share = weight * volume * kernel_constant(b->setup.smoothing_length, b->setup.dimensions);
+    *share = weight * volume *
+             kernel_constant(KERNEL_WENDLAND, b->setup.smoothing_length, b->setup.dimensions);
     *velocity =
         weight > 0 ? vec3(sum[0] / weight, sum[1] / weight, sum[2] / weight) : vec3(0, 0, 0);
 }
@@ -198,7 +200,7 @@ static void add_colour(const Backend *b, const ParticleSet *set, Vec3 from, Vec3
 {
     double h = b->setup.smoothing_length, reach = 2 * h, length = vec3_norm(step);
     double volume = b->setup.particle_mass / b->setup.rest_density;
-    double scale = volume * kernel_constant(h, b->setup.dimensions);
+    double scale = volume * kernel_constant(KERNEL_WENDLAND, h, b->setup.dimensions);
     Vec3 along = vec3_scale(step, 1 / length);
     for (int i = 0; i < set->cluster_count * CLUSTER; i++) {
         if (set->id[i] < 0) continue;
@@ -213,7 +215,7 @@ static void add_colour(const Backend *b, const ParticleSet *set, Vec3 from, Vec3
         for (int k = begin; k <= end; k++) {
             double r = sqrt(maxd(across2, 0) + (k * length - x) * (k * length - x));
             float s = (float)(1 - r / reach);
-            if (s > 0) colour[k] += scale * kernel_value(s);
+            if (s > 0) colour[k] += scale * wendland_value(s);
         }
     }
 }

@@ -8,12 +8,12 @@ typedef struct ShiftSums {
 } ShiftSums;
 
 /// One particle and the eight at `base`. @param react  where their share goes, NULL: nowhere
-FN void visit_shift(const Self *self, const Arrays *other, size_t base, float support,
+FN void visit_shift(const Self *self, const Arrays *other, size_t base, float per_support,
                     float *const *react, ShiftSums *own)
 {
     Offset d = offset_to(self, other, base);
-    Lanes r2 = offset_square(d), scale = lanes_all(1.0f / support);
-    Lanes slope = kernel_slope(scale * pair_closeness(r2, support));
+    Lanes r2 = offset_square(d), scale = lanes_all(per_support);
+    Lanes slope = kernel_slope(pair_closeness(r2, per_support));
     const Lanes part[SHIFT_SUMS] = {slope * scale * d.x, slope * scale * d.y, slope * scale * d.z,
                                     slope * scale * scale * r2};
     for (int k = 0; k < SHIFT_SUMS; k++)
@@ -27,25 +27,25 @@ FN void visit_shift(const Self *self, const Arrays *other, size_t base, float su
 FN void sums_of_particle(const Sweep *sweep, const Arrays *fluid, float *const shift[SHIFT_SUMS],
                          int i, int l)
 {
-    const float support = sweep->constants.support;
+    const float per_support = sweep->constants.per_support;
     const Self self = self_of(fluid, i * CLUSTER + l);
     ShiftSums own = {{lanes_all(0), lanes_all(0), lanes_all(0), lanes_all(0)}};
     Visits visits = visits_of(sweep->fluid_fluid, i, l);
     for (size_t base; visits_next(&visits, &base);)
-        visit_shift(&self, fluid, base, support, shift, &own);
-    visit_shift(&self, fluid, (size_t)i * CLUSTER, support, NULL, &own);
+        visit_shift(&self, fluid, base, per_support, shift, &own);
+    visit_shift(&self, fluid, (size_t)i * CLUSTER, per_support, NULL, &own);
     for (int set = 0; set < 2; set++) {
         if (!has_walls(sweep, set, i)) continue;
         const Arrays walls = arrays_of(sweep->walls[set]);
         visits = visits_of(sweep->fluid_wall[set], i, l);
         for (size_t base; visits_next(&visits, &base);)
-            visit_shift(&self, &walls, base, support, NULL, &own);
+            visit_shift(&self, &walls, base, per_support, NULL, &own);
     }
     for (int k = 0; k < SHIFT_SUMS; k++)
         shift[k][i * CLUSTER + l] += lanes_total(own.sum[k]);
 }
 
-void AT_LEVEL(shift_sums)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(shift_sums)(const Sweep *sweep, int begin, int end)
 {
     const Arrays fluid = arrays_of(sweep->fluid);
     float *shift[SHIFT_SUMS];
@@ -56,7 +56,7 @@ void AT_LEVEL(shift_sums)(const Sweep *sweep, int begin, int end)
                 sums_of_particle(sweep, &fluid, shift, i, l);
 }
 
-void AT_LEVEL(shift_velocities)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(shift_velocities)(const Sweep *sweep, int begin, int end)
 {
     const Arrays fluid = arrays_of(sweep->fluid);
     float *shift[SHIFT_SUMS];

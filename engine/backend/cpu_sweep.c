@@ -1,5 +1,5 @@
 /// Neighbour sweeps over clusters of eight. One particle meets eight neighbours, a lane each; no
-/// mask is needed, because closeness = max(0, 2h - r) is zero beyond the support and in padding.
+/// mask is needed, because closeness = max(0, 1 - r/2h) is zero beyond the support and in padding.
 /// Which clusters a particle visits, near_prune has written as bits into the list: by its distance
 /// to their boxes, with a margin, so that many sweeps can use them.
 ///
@@ -12,7 +12,7 @@ FN void visit_momentum(const Self *self, const Arrays *other, size_t base, const
                        bool viscous, bool react, Lanes sum[3])
 {
     Offset d = offset_to(self, other, base);
-    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.support);
+    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.per_support);
     Lanes force, pressures = self->pressure + lanes_load(other->pressure + base);
     if (viscous)
         force = pair_force(closeness, r2, pressures, approach_of(self, other, base, d), c);
@@ -32,7 +32,7 @@ FN void visit_density(const Self *self, const Arrays *other, size_t base, const 
                       bool diffusive, bool react, Lanes *sum)
 {
     Offset d = offset_to(self, other, base);
-    Lanes slope = kernel_slope(pair_closeness(offset_square(d), c.support));
+    Lanes slope = kernel_slope(pair_closeness(offset_square(d), c.per_support));
     Lanes stretch = approach_of(self, other, base, d), spread = lanes_all(0);
     if (diffusive) spread = lanes_load(other->dynamic + base) - self->dynamic;
     *sum += slope * (spread - stretch);
@@ -145,8 +145,8 @@ FN float extrapolated_pressure(const Sweep *sweep, int set, int i, int l)
     Visits visits = visits_of(sweep->wall_fluid[set], i, l);
     for (size_t base; visits_next(&visits, &base);) {
         Offset d = offset_to(&self, &fluid, base);
-        Lanes closeness = pair_closeness(offset_square(d), sweep->constants.support);
-        Lanes weight = kernel_value(closeness * (1.0f / sweep->constants.support));
+        Lanes closeness = pair_closeness(offset_square(d), sweep->constants.per_support);
+        Lanes weight = kernel_value(closeness);
         Lanes density = 1.0f + lanes_load(fluid.excess + base), depth = pull[2] * d.z;
         if (set == 1) depth += pull[0] * d.x + pull[1] * d.y;
         weights += weight;
@@ -200,7 +200,7 @@ static void loads(const Sweep *sweep, int begin, int end)
     }
 }
 
-const SweepTable *AT_LEVEL(sweep_table)(void)
+const SweepTable *AT_KERNEL(sweep_table)(void)
 {
     static const SweepTable table = {
         SWEEP_LEVEL,
@@ -211,19 +211,19 @@ const SweepTable *AT_LEVEL(sweep_table)(void)
         AT_LEVEL(near_clusters),
         AT_LEVEL(near_prune),
         {acceleration_plain, EFFECTS_BUILT ? acceleration_viscous : NULL,
-         EFFECTS_BUILT ? AT_LEVEL(gradient_plain) : NULL,
-         EFFECTS_BUILT ? AT_LEVEL(gradient_viscous) : NULL},
-        EFFECTS_BUILT ? AT_LEVEL(viscous_forces) : NULL,
+         EFFECTS_BUILT ? AT_KERNEL(gradient_plain) : NULL,
+         EFFECTS_BUILT ? AT_KERNEL(gradient_viscous) : NULL},
+        EFFECTS_BUILT ? AT_KERNEL(viscous_forces) : NULL,
         {density_plain, EFFECTS_BUILT ? density_diffusive : NULL},
         extrapolate,
-        {loads, AT_LEVEL(gradient_loads), AT_LEVEL(viscous_loads)},
-        AT_LEVEL(gradient_moments),
-        AT_LEVEL(gradient_invert),
-        AT_LEVEL(viscous_mirror),
-        AT_LEVEL(viscous_strain),
-        AT_LEVEL(viscous_stress),
-        AT_LEVEL(shift_sums),
-        AT_LEVEL(shift_velocities),
+        {loads, AT_KERNEL(gradient_loads), AT_KERNEL(viscous_loads)},
+        AT_KERNEL(gradient_moments),
+        AT_KERNEL(gradient_invert),
+        AT_KERNEL(viscous_mirror),
+        AT_KERNEL(viscous_strain),
+        AT_KERNEL(viscous_stress),
+        AT_KERNEL(shift_sums),
+        AT_KERNEL(shift_velocities),
     };
     return &table;
 }

@@ -25,14 +25,14 @@ FN Offset force_between(const Self *self, const Arrays *other, size_t base, cons
 {
     const SweepConstants c = sweep->constants;
     Offset d = offset_to(self, other, base), f;
-    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.support);
+    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.per_support);
     Lanes along, slope = kernel_slope(closeness), vx = approach_of(self, other, base, d);
     Lanes pressures = self->pressure + lanes_load(other->pressure + base);
-    pressures += viscous_push(r2, vx, sweep->viscous);
     if (mask & PAIR_VISCOSITY)
         along = pair_force(closeness, r2, pressures, vx, c);
     else
         along = slope * pressures;
+    along += viscous_push(closeness, r2, vx, sweep->viscous);
     f.x = along * d.x;
     f.y = along * d.y;
     f.z = along * d.z;
@@ -80,7 +80,7 @@ FN void force_of_walls(const Sweep *sweep, const Self *self, int i, int l, unsig
                 continue;
             }
             Offset d = offset_to(self, &walls, base);
-            Lanes push = kernel_slope(pair_closeness(offset_square(d), c.support)) *
+            Lanes push = kernel_slope(pair_closeness(offset_square(d), c.per_support)) *
                          (self->pressure + lanes_load(walls.pressure + base));
             Offset f = {push * d.x, push * d.y, push * d.z};
             add_force(sum, f);
@@ -136,11 +136,11 @@ VARIANT(6, PAIR_NO_SLIP | PAIR_TURBULENCE)
 VARIANT(7, PAIR_NO_SLIP | PAIR_TURBULENCE | PAIR_VISCOSITY)
 #undef VARIANT
 
-const SweepFunction AT_LEVEL(viscous_forces)[VISCOUS_VARIANTS] = {
+const SweepFunction AT_KERNEL(viscous_forces)[VISCOUS_VARIANTS] = {
     forces_0, forces_1, forces_2, forces_3, forces_4, forces_5, forces_6, forces_7};
 
 /// What a dummy that holds the water answers its push and its drag with.
-void AT_LEVEL(viscous_loads)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(viscous_loads)(const Sweep *sweep, int begin, int end)
 {
     ParticleSet *wall = sweep->walls[1];
     const Arrays walls = mirrored_of(wall), fluid = arrays_of(sweep->fluid);
@@ -170,8 +170,8 @@ FN void mirror_velocity(const Sweep *sweep, int set, int slot)
     Visits visits = visits_of(sweep->wall_fluid[set], slot / CLUSTER, slot % CLUSTER);
     for (size_t base; visits_next(&visits, &base);) {
         Lanes r2 = offset_square(offset_to(&self, &fluid, base));
-        Lanes closeness = pair_closeness(r2, sweep->constants.support);
-        Lanes weight = kernel_value(closeness * (1.0f / sweep->constants.support));
+        Lanes closeness = pair_closeness(r2, sweep->constants.per_support);
+        Lanes weight = wendland_value(closeness);
         weights += weight;
         sum[0] += weight * lanes_load(fluid.u + base);
         sum[1] += weight * lanes_load(fluid.v + base);
@@ -184,7 +184,7 @@ FN void mirror_velocity(const Sweep *sweep, int set, int slot)
     }
 }
 
-void AT_LEVEL(viscous_mirror)(const Sweep *sweep, int set, int begin, int end)
+void AT_KERNEL(viscous_mirror)(const Sweep *sweep, int set, int begin, int end)
 {
     const ParticleSet *wall = sweep->walls[set];
     for (int slot = begin * CLUSTER; slot < end * CLUSTER; slot++) {
@@ -208,28 +208,28 @@ FN Offset parting_of(const Self *self, const Arrays *other, size_t base)
 }
 
 /// Rate of strain: one particle and the eight at `base`, which have the same share in each other's.
-FN Symmetric strain_between(const Self *self, const Arrays *other, size_t base, float support)
+FN Symmetric strain_between(const Self *self, const Arrays *other, size_t base, float per_support)
 {
     // lengths over the support, as in cpu_gradient.c
-    Lanes scale = lanes_all(1.0f / support);
+    Lanes scale = lanes_all(per_support);
     Offset d = offset_to(self, other, base), v = parting_of(self, other, base);
-    Lanes slope = kernel_slope(scale * pair_closeness(offset_square(d), support));
+    Lanes slope = kernel_slope(pair_closeness(offset_square(d), per_support));
     return strain_moment(slope, v.x, v.y, v.z, scale * d.x, scale * d.y, scale * d.z);
 }
 
-void AT_LEVEL(viscous_strain)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(viscous_strain)(const Sweep *sweep, int begin, int end)
 {
-    const float support = sweep->constants.support;
+    const float per_support = sweep->constants.per_support;
     const Arrays fluid = arrays_of(sweep->fluid);
     const Terms terms = terms_of(sweep->fluid->stress);
     for (int slot = begin * CLUSTER; slot < end * CLUSTER; slot++) {
         if (sweep->fluid->id[slot] < 0) continue;
         const Self self = self_of(&fluid, slot);
         size_t same = (size_t)slot / CLUSTER * CLUSTER;
-        Symmetric sum = strain_between(&self, &fluid, same, support);
+        Symmetric sum = strain_between(&self, &fluid, same, per_support);
         Visits visits = visits_of(sweep->fluid_fluid, slot / CLUSTER, slot % CLUSTER);
         for (size_t base; visits_next(&visits, &base);) {
-            Symmetric s = strain_between(&self, &fluid, base, support);
+            Symmetric s = strain_between(&self, &fluid, base, per_support);
             sum = terms_sum(sum, s);
             terms_store(&terms, base, terms_sum(terms_load(&terms, base), s));
         }
@@ -237,7 +237,7 @@ void AT_LEVEL(viscous_strain)(const Sweep *sweep, int begin, int end)
     }
 }
 
-void AT_LEVEL(viscous_stress)(const Sweep *sweep, int begin, int end)
+void AT_KERNEL(viscous_stress)(const Sweep *sweep, int begin, int end)
 {
     const Terms terms = terms_of(sweep->fluid->stress);
     const Lanes factor = lanes_all(sweep->viscous.strain);

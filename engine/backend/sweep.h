@@ -1,6 +1,7 @@
 /// The neighbour sweeps: loops of physics/pair.h over lists of clusters. cpu_gradient.c,
 /// cpu_near.c, cpu_shift.c, cpu_step.c, cpu_sweep.c and cpu_viscous.c are compiled once per
-/// instruction level; each build exports one SweepTable and the best one is chosen at start.
+/// instruction level and kernel; each build exports one SweepTable, and the case's kernel at the
+/// best level is chosen at start.
 #ifndef FAIRLEAD_BACKEND_SWEEP_H
 #define FAIRLEAD_BACKEND_SWEEP_H
 
@@ -21,7 +22,7 @@ typedef struct Sweep {
     float rest_density; ///< [kg/m^3]
     float unit;         ///< [m]
     int dimensions;
-    float moment_factor; ///< of M, summed with lengths over 2h: 20 alpha_D V [-]
+    float moment_factor; ///< of M, summed with lengths over 2h: 4 h^2 K V [-]
     ViscousConstants viscous;
     ShiftConstants shift;
 } Sweep;
@@ -76,15 +77,8 @@ typedef struct SweepTable {
     SweepFunction shift_sums, shift_velocities;
 } SweepTable;
 
-#if defined(__x86_64__)
-const SweepTable *sweep_table_v2(void);
-const SweepTable *sweep_table_v3(void);
-const SweepTable *sweep_table_v4(void);
-#else
-const SweepTable *sweep_table_native(void);
-#endif
-
-// Files compiled once per level name what they export after it: sweep_table_v3 …
+// Files compiled once per level name what they export after it, and those compiled once per level
+// and kernel after both: step_place_v3, sweep_table_v3_wendland …
 #if defined(SWEEP_SUFFIX)
 #define AT_LEVEL_JOIN(name, suffix) name##_##suffix
 #define AT_LEVEL_EXPAND(name, suffix) AT_LEVEL_JOIN(name, suffix)
@@ -95,24 +89,27 @@ void AT_LEVEL(step_update_pressure)(struct Backend *);
 void AT_LEVEL(step_update_dynamic)(struct Backend *);
 int AT_LEVEL(near_clusters)(const Boxes *a, int i, const Boxes *b, int begin, int end,
                             float reach_squared, uint32_t *entry, int room);
-void AT_LEVEL(gradient_moments)(const Sweep *, int begin, int end);
-void AT_LEVEL(gradient_invert)(const Sweep *, int begin, int end);
-void AT_LEVEL(gradient_plain)(const Sweep *, int begin, int end);
-void AT_LEVEL(gradient_viscous)(const Sweep *, int begin, int end);
-void AT_LEVEL(gradient_loads)(const Sweep *, int begin, int end);
-extern const SweepFunction AT_LEVEL(viscous_forces)[VISCOUS_VARIANTS];
-void AT_LEVEL(viscous_loads)(const Sweep *, int begin, int end);
-void AT_LEVEL(viscous_mirror)(const Sweep *, int set, int begin, int end);
-void AT_LEVEL(viscous_strain)(const Sweep *, int begin, int end);
-void AT_LEVEL(viscous_stress)(const Sweep *, int begin, int end);
-void AT_LEVEL(shift_sums)(const Sweep *, int begin, int end);
-void AT_LEVEL(shift_velocities)(const Sweep *, int begin, int end);
 void AT_LEVEL(near_prune)(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int begin,
                           int end, float reach_squared, bool exact);
+#if defined(SWEEP_KERNEL_NAME)
+#define AT_KERNEL(name) AT_LEVEL_EXPAND(AT_LEVEL(name), SWEEP_KERNEL_NAME)
+void AT_KERNEL(gradient_moments)(const Sweep *, int begin, int end);
+void AT_KERNEL(gradient_invert)(const Sweep *, int begin, int end);
+void AT_KERNEL(gradient_plain)(const Sweep *, int begin, int end);
+void AT_KERNEL(gradient_viscous)(const Sweep *, int begin, int end);
+void AT_KERNEL(gradient_loads)(const Sweep *, int begin, int end);
+extern const SweepFunction AT_KERNEL(viscous_forces)[VISCOUS_VARIANTS];
+void AT_KERNEL(viscous_loads)(const Sweep *, int begin, int end);
+void AT_KERNEL(viscous_mirror)(const Sweep *, int set, int begin, int end);
+void AT_KERNEL(viscous_strain)(const Sweep *, int begin, int end);
+void AT_KERNEL(viscous_stress)(const Sweep *, int begin, int end);
+void AT_KERNEL(shift_sums)(const Sweep *, int begin, int end);
+void AT_KERNEL(shift_velocities)(const Sweep *, int begin, int end);
+#endif
 #endif
 
 /// The best table this processor runs. FAIRLEAD_LEVEL=x86-64-v2|v3|v4 asks for a lower one.
-const SweepTable *sweep_table_choose(void);
+const SweepTable *sweep_table_choose(Kernel kernel);
 
 /// Which list to build: clusters of `b` within reach of each cluster of `a`.
 typedef struct ListOrder {

@@ -43,9 +43,9 @@ FN float tension_bearing(float s, float floor) { return s > floor ? s : floor; }
 
 /// Excess of a particle without neighbours that began inside water: its own share of the sum, less
 /// one [-]. Nothing can lose more. @param mass  [kg], per metre in 2-D
-FN double excess_alone(double h, int dimensions, double mass, double rho0)
+FN double excess_alone(Kernel kernel, double h, int dimensions, double mass, double rho0)
 {
-    return kernel_constant(h, dimensions) * mass / rho0 - 1.0;
+    return kernel_constant(kernel, h, dimensions) * mass / rho0 - 1.0;
 }
 
 /// tait_energy with the push limited at `floor`.
@@ -73,11 +73,13 @@ FN double hydrostatic_excess(double below, double gravity, double sound_speed)
 
 /// Head that water at rest holds beyond its depth d under a free surface is A (1 - d/1.5)^2, all in
 /// smoothing lengths: the sum of pressures over pairs lacks those above the surface, and the rest
-/// must make up for it. @return A = 0.215 - 0.6 (h/dp)^-4: measured, to 0.01 spacings, at h/dp 1.5
-/// to 3 in 2-D and 3-D (docs/physics.md)
-FN double surface_head_most(double smoothing_ratio)
+/// must make up for it. @return A = 0.215 - B (h/dp)^-4, not below 0, B = 0.6 with Wendland's
+/// kernel: measured, to 0.01 spacings, at h/dp 1.5 to 3 in 2-D and 3-D; B = 1.25 with the yielding
+/// one, to 0.03 spacings at h/dp 2 and 2.4, 0.06 at 1.6 (docs/physics.md)
+FN double surface_head_most(Kernel kernel, double smoothing_ratio)
 {
-    return 0.215 - 0.6 * pow(smoothing_ratio, -4);
+    double most = 0.215 - (kernel == KERNEL_YIELDING ? 1.25 : 0.6) * pow(smoothing_ratio, -4);
+    return most > 0.0 ? most : 0.0;
 }
 
 /// That head at `below` smoothing lengths under the surface [-].

@@ -24,7 +24,7 @@ typedef struct ShiftConstants {
 } ShiftConstants;
 
 /// @param coefficient    A [-]
-/// @param moment_factor  of M, summed with lengths over 2h: 20 alpha_D V [-]
+/// @param moment_factor  of M, summed with lengths over 2h: 4 h^2 K V [-]
 FN ShiftConstants shift_constants(double coefficient, double moment_factor, int dimensions)
 {
     ShiftConstants c;

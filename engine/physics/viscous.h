@@ -1,6 +1,7 @@
 /// Molecular viscosity and the stresses of turbulence too small to be resolved. With
-/// grad_i W = F x_ik, F = -(5 alpha_D/h^2) s^3 (kernel.h), n dimensions, a pair adds to i's
-/// acceleration
+/// grad_i W = F x_ik of Wendland's kernel in the first sum, whatever pressure is summed with
+/// (kernel.h: where the lattice yields, fewer neighbours count, and nu u'' on a lattice is off by 8
+/// % instead of 4), n dimensions, a pair adds to i's acceleration
 ///
 ///     sum_k m_k (2 (n + 2) nu/rho0) (v_ik . x_ik/r^2) F x_ik
 ///     + sum_k m_k (tau_i/rho_i^2 + tau_k/rho_k^2) . grad_i W,
@@ -25,29 +26,33 @@
 #define ISOTROPIC_STRESS 0.0066 ///< C_I [-]
 
 typedef struct ViscousConstants {
-    float laminar;  ///< 2 (n + 2) nu/(u rho0): multiplies v_ik . x_ik/r^2 beside P
-    float strain;   ///< 10 alpha_D V/h: of sums with lengths over 2h, [m/s] → [1/s]
+    float laminar;  ///< 2 (n + 2) nu/(u rho0) with Wendland's K over the kernel's
+    float strain;   ///< 2 h K V: of sums with lengths over 2h, [m/s] → [1/s]
     float eddy;     ///< (C_s Delta)^2/rho0: nu_t/rho0 over |S|
     float pressing; ///< 2/3 C_I Delta^2/rho0: over |S|^2
 } ViscousConstants;
 
 /// Constants of a scene. @param nu  kinematic viscosity [m^2/s]; u position unit [m]; volume of a
 /// particle [m^3], in 2-D [m^2]
-FN ViscousConstants viscous_constants(double h, int dimensions, double u, double volume,
-                                      double spacing, double rho0, double nu)
+FN ViscousConstants viscous_constants(Kernel kernel, double h, int dimensions, double u,
+                                      double volume, double spacing, double rho0, double nu)
 {
     ViscousConstants c;
-    c.laminar = (float)(2 * (dimensions + 2) * nu / (u * rho0));
-    c.strain = (float)(10 * kernel_constant(h, dimensions) * volume / h);
+    double ratio = kernel_slope_constant(KERNEL_WENDLAND, h, dimensions) /
+                   kernel_slope_constant(kernel, h, dimensions);
+    c.laminar = (float)(2 * (dimensions + 2) * nu / (u * rho0) * ratio);
+    c.strain = (float)(2 * h * kernel_slope_constant(kernel, h, dimensions) * volume);
     c.eddy = (float)(SMAGORINSKY * SMAGORINSKY * spacing * spacing / rho0);
     c.pressing = (float)(2.0 / 3.0 * ISOTROPIC_STRESS * spacing * spacing / rho0);
     return c;
 }
 
-/// What viscosity adds to P_i + P_k. @param r2  squared distance [unit^2]   @param vx  v_ik . x_ik
-FN LANE viscous_push(LANE r2, LANE vx, const ViscousConstants c)
+/// What viscosity adds to the factor of x_ik that pair_force gives. @param closeness  of the pair
+/// @param r2  squared distance [unit^2]   @param vx  v_ik . x_ik
+FN LANE viscous_push(LANE closeness, LANE r2, LANE vx, const ViscousConstants c)
 {
-    return -c.laminar * vx / (r2 + 1.0f); // a unit is some nanometres; 0/0 in a particle itself
+    // a unit is some nanometres; 0/0 in a particle itself
+    return -c.laminar * wendland_slope(closeness) * vx / (r2 + 1.0f);
 }
 
 /// Share of one neighbour in S, without its factor; the neighbour has the same share of it.

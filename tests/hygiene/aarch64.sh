@@ -12,5 +12,6 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for source in "$root"/engine/backend/*.c "$root"/engine/base/*.c; do
     "$compiler" -std=gnu17 -O2 -Wall -Wextra -Werror -Wno-psabi -fopenmp -I "$root/engine" \
-        -DSWEEP_SUFFIX=native -DSWEEP_LEVEL='"aarch64"' -c "$source" -o "$work/object.o"
+        -DSWEEP_SUFFIX=native -DSWEEP_LEVEL='"aarch64"' \
+        -DSWEEP_KERNEL=KERNEL_WENDLAND -DSWEEP_KERNEL_NAME=wendland -c "$source" -o "$work/object.o"
 done

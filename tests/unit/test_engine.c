@@ -1,4 +1,5 @@
 /// Whole scenes, small enough for every build: plans, commands, determinism, roll-back.
+#include "energy.h"
 #include "scenes.h"
 
 TEST(still_water_plans_nothing_of_waves_bodies_or_lines)
@@ -62,8 +63,28 @@ TEST(a_plan_warns_of_the_lattice_where_a_body_may_drift)
     scene.fluid.gradient = GRADIENT_CORRECTED;
     CHECK(!warns_of_drift(&scene));
     scene.fluid.gradient = GRADIENT_PLAIN;
+    scene.fluid.kernel = KERNEL_YIELDING;
+    CHECK(!warns_of_drift(&scene));
+    scene.fluid.kernel = KERNEL_WENDLAND;
     scene.bodies[0].freedoms[0].kind = FREEDOM_FIXED; // sway is fixed in a plane
     CHECK(!warns_of_drift(&scene));
+}
+
+TEST(a_plan_tells_its_kernel_and_water_at_rest_stays_under_either)
+{
+    for (int k = 0; k < 2; k++) {
+        Scene scene = tank_2d(0.05);
+        scene.fluid.kernel = (Kernel)k;
+        scene.energy = ENERGY_LEVELS;
+        Run *run = start(&scene, 1);
+        CHECK_CONTAINS(run->plan.variant, k ? "yielding kernel" : "Wendland kernel");
+        advance_to(run, 3);
+        double speed = sqrt(2 * energy_levels(&run->scene, run->state).kinetic /
+                            (run->plan.fluid_count * run->plan.particle_mass));
+        printf("  %.2f mm/s rms after 3 s\n", 1000 * speed);
+        CHECK(speed < 0.01);
+        finish(run);
+    }
 }
 
 TEST(thread_counts_give_the_same_bits)

@@ -37,6 +37,31 @@ static inline BackendSetup water_setup(int dimensions)
     return s;
 }
 
+/// -(dW/dr)/r of a kernel, up to the factor that makes its integral 1. @param x  r/2h
+static inline double kernel_shape(Kernel kernel, double x)
+{
+    if (x >= 1) return 0;
+    return kernel == KERNEL_YIELDING ? pow(1 - x, 7) * (1 + 7 * x + 20 * x * x) : pow(1 - x, 3);
+}
+
+/// -(dW/dr)/r in double; its second moment over all directions is the number of dimensions, as
+/// integration by parts of the integral of W (1) has it. @return [1/m^5], [1/m^4] in 2-D
+static inline double kernel_slope_at(Kernel kernel, int dimensions, double h, double r)
+{
+    static double factors[2][4];
+    double *factor = &factors[kernel][dimensions];
+    if (*factor == 0) {
+        double sum = 0, sphere = dimensions == 2 ? 2 * PI : 4 * PI;
+        enum { PARTS = 10000 };
+        for (int i = 0; i < PARTS; i++) {
+            double x = (i + 0.5) / PARTS;
+            sum += sphere * pow(x, dimensions + 1) * kernel_shape(kernel, x) / PARTS;
+        }
+        *factor = dimensions / sum;
+    }
+    return *factor * pow(2 * h, -dimensions - 2) * kernel_shape(kernel, r / (2 * h));
+}
+
 /// Accelerations and rates of density.
 static inline void water_rates(const BackendSetup *setup, const ParticleStart *start, float (*a)[3],
                                float *d)
