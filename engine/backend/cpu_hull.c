@@ -8,8 +8,6 @@
 
 /// Depth behind the skin that water may have: notches of a hull's lattice are as deep [spacings].
 static const double DEEPEST = 0.25;
-/// Steps within which it is back at the skin.
-static const double STEPS_BACK = 4;
 
 bool hulls_create(Backend *b, Arena *arena, Error *error)
 {
@@ -87,7 +85,7 @@ static void hold_particle(Backend *b, const Advance *advance, int body, int slot
     Vec3 v = vec3((double)f->field[VELOCITY_X][slot], (double)f->field[VELOCITY_Y][slot],
                   (double)f->field[VELOCITY_Z][slot]);
     Vec3 relative = vec3_mad(v, vec3_sub(place, before), -1 / advance->dt);
-    double gain = behind / (STEPS_BACK * advance->dt) - vec3_dot(relative, out);
+    double gain = speed_back(b, behind, advance->dt) - vec3_dot(relative, out);
     if (gain <= 0) return;
     v = vec3_mad(v, out, gain);
     f->field[VELOCITY_X][slot] = (float)v.x;

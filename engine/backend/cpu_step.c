@@ -104,7 +104,8 @@ static void hold_before_ring(const Backend *b, ParticleSet *f, const Advance *ad
             float at = place[a][who[n]], inwards = at < low ? 1.0f : -1.0f;
             float behind = inwards * ((float)(a == 0 ? face[n].x : face[n].y) - at);
             if (behind < 0.25f * (float)b->setup.spacing) continue;
-            float back = behind / (4.0f * dt), *v = &f->field[VELOCITY_X + a][slot[who[n]]];
+            float back = (float)speed_back(b, (double)behind, (double)dt);
+            float *v = &f->field[VELOCITY_X + a][slot[who[n]]];
             if (inwards * *v < back) *v = inwards * back;
         }
     }
