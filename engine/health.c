@@ -81,6 +81,15 @@ static void roll_back(const Scene *scene, State *state)
 }
 
 /// First violated limit as text; false when all is well.
+/// "particle 18 at (-3.731, 0, -0.079) m: "
+static int name_worst(const State *state, WorstBy by, char *text, int size)
+{
+    Vec3 place = vec3(0, 0, 0);
+    int id = state->backend->worst(state->particles, by, &place);
+    return snprintf(text, (size_t)size, "particle %d at (%.4g, %.4g, %.4g) m: ", id, place.x,
+                    place.y, place.z);
+}
+
 static bool find_sickness(const Scene *scene, const Plan *plan, const State *state,
                           const ParticleSums *sums, char *text, int size)
 {
@@ -93,12 +102,18 @@ static bool find_sickness(const Scene *scene, const Plan *plan, const State *sta
                         sums->lost_count, state->time, HEALTH_LOST_LIMIT);
     double excess = sums->largest_excess > -sums->smallest_excess ? sums->largest_excess
                                                                   : sums->smallest_excess;
-    if (fabs(excess) > HEALTH_EXCESS_LIMIT)
-        return snprintf(text, (size_t)size, "fluid: density error %+.3g at t = %.4f s; limit %.3g",
-                        excess, state->time, HEALTH_EXCESS_LIMIT);
-    if (sums->largest_speed > HEALTH_SPEED_LIMIT * plan->sound_speed)
-        return snprintf(text, (size_t)size, "fluid: speed %.3g m/s at t = %.4f s; limit %.3g m/s",
-                        sums->largest_speed, state->time, HEALTH_SPEED_LIMIT * plan->sound_speed);
+    if (fabs(excess) > HEALTH_EXCESS_LIMIT) {
+        int named = name_worst(state, WORST_BY_EXCESS, text, size);
+        return snprintf(text + named, (size_t)(size - named),
+                        "density error %+.3g at t = %.4f s; limit %.3g", excess, state->time,
+                        HEALTH_EXCESS_LIMIT);
+    }
+    if (sums->largest_speed > HEALTH_SPEED_LIMIT * plan->sound_speed) {
+        int named = name_worst(state, WORST_BY_SPEED, text, size);
+        return snprintf(text + named, (size_t)(size - named),
+                        "speed %.3g m/s at t = %.4f s; limit %.3g m/s", sums->largest_speed,
+                        state->time, HEALTH_SPEED_LIMIT * plan->sound_speed);
+    }
     for (int b = 0; b < scene->body_count; b++) {
         const Body *body = &state->bodies[b];
         double sum = vec3_dot(body->position, body->position) +

@@ -170,6 +170,9 @@ typedef struct BackendStatistics {
     size_t list_bytes;       ///< set aside for the lists, beside the arena [byte]
 } BackendStatistics;
 
+/// What makes a particle the worst of all.
+typedef enum WorstBy { WORST_BY_SPEED, WORST_BY_EXCESS } WorstBy;
+
 typedef struct Backend Backend; ///< opaque: the backend's own data
 
 typedef struct BackendTable {
@@ -185,6 +188,9 @@ typedef struct BackendTable {
     /// Sums of accelerations at the present places; fluid loads on bodies about `about`.
     bool (*forces)(Backend *backend, const Vec3 *about, BodyLoad *loads, Error *error);
     void (*advance)(Backend *backend, const Advance *advance, ParticleSums *sums);
+    /// The fastest particle, or the one that pushes farthest off rest density: its place [m].
+    /// @return its id, -1 without particles
+    int (*worst)(const Backend *backend, WorstBy by, Vec3 *place);
     /// Fluid in the order of creation, world positions; any pointer may be NULL.
     void (*download)(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
     /// Highest z at which the water's colour function crosses one half above (x, y); NAN if dry

@@ -514,6 +514,7 @@ const BackendTable *backend_cpu(void)
         .place = cpu_place,
         .forces = cpu_forces,
         .advance = cpu_advance,
+        .worst = cpu_worst,
         .download = cpu_download,
         .elevation = cpu_elevation,
         .velocity = cpu_velocity,

@@ -137,6 +137,7 @@ void pairs_find_stresses(Backend *backend);
 void pairs_shift(Backend *backend);
 /// Share of a pair effect's bit in its sweep; see backend.h.
 double pairs_cost(Backend *backend, unsigned bit);
+int cpu_worst(const Backend *backend, WorstBy by, Vec3 *place);
 void cpu_download(Backend *backend, float (*position)[3], float (*velocity)[3], float *pressure);
 double cpu_elevation(Backend *backend, double x, double y);
 double cpu_pressure(Backend *backend, Vec3 point, Vec3 normal);

@@ -1,9 +1,10 @@
-/// Counts of the CPU backend that nobody needs while it runs: how many neighbours a particle has,
-/// how large the lists are. Neighbours are counted from positions alone, never from the lists, so
-/// that a list that loses some would be seen.
+/// What nobody needs of the CPU backend while it runs well: which particle is worst, how many
+/// neighbours one has, how large the lists are. Neighbours are counted from positions alone, never
+/// from the lists, so that a list that loses some would be seen.
 #include <string.h>
 
 #include "backend/cpu.h"
+#include "physics/fluid.h"
 
 /// Distances that may be looked at: some tenths of a second of one core.
 static const double DISTANCES_MAX = 1e9;
@@ -59,4 +60,25 @@ void cpu_statistics(const Backend *b, BackendStatistics *statistics)
                              list_bytes(&b->fluid_moving) + list_bytes(&b->fixed_fluid) +
                              list_bytes(&b->moving_fluid);
     count_neighbours(b, statistics);
+}
+
+int cpu_worst(const Backend *b, WorstBy by, Vec3 *place)
+{
+    const ParticleSet *f = &b->fluid;
+    int worst = -1;
+    float most = -1;
+    for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
+        if (f->id[i] < 0) continue;
+        float u = f->field[VELOCITY_X][i], v = f->field[VELOCITY_Y][i], w = f->field[VELOCITY_Z][i];
+        float off = fabsf(tension_bearing(f->field[EXCESS][i], b->excess_floor));
+        float size = by == WORST_BY_SPEED ? u * u + v * v + w * w : off;
+        if (!(size > most)) continue;
+        most = size;
+        worst = i;
+    }
+    if (worst < 0) return -1;
+    *place = vec3(to_metres(&b->grid, 0, f->position[0][worst]),
+                  to_metres(&b->grid, 1, f->position[1][worst]),
+                  to_metres(&b->grid, 2, f->position[2][worst]));
+    return f->id[worst];
 }

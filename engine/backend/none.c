@@ -45,6 +45,14 @@ static void none_advance(Backend *backend, const Advance *advance, ParticleSums 
     sums->sick = -1;
 }
 
+static int none_worst(const Backend *backend, WorstBy by, Vec3 *place)
+{
+    (void)backend;
+    (void)by;
+    (void)place;
+    return -1;
+}
+
 static void none_download(Backend *backend, float (*position)[3], float (*velocity)[3],
                           float *pressure)
 {
@@ -165,6 +173,7 @@ const BackendTable *backend_none(void)
         .place = none_place,
         .forces = none_forces,
         .advance = none_advance,
+        .worst = none_worst,
         .download = none_download,
         .elevation = none_elevation,
         .pressure = none_pressure,

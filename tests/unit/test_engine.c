@@ -119,6 +119,11 @@ TEST(a_sick_step_is_rolled_back_and_tried_with_a_smaller_one)
     CHECK(run->state->health.status == HEALTH_RECOVERED);
     CHECK(run->state->health.recoveries > 0);
     CHECK_CONTAINS(run->state->health.message, "limit");
+    int id = -1;
+    double x = NAN;
+    CHECK(sscanf(run->state->health.message, "particle %d at (%lf", &id, &x) == 2);
+    CHECK(id >= 0 && id < run->plan.fluid_count);
+    CHECK(x >= scene.domain.min.x - 0.1 && x <= scene.domain.max.x + 0.1);
     CHECK(run->state->density_error < HEALTH_EXCESS_LIMIT);
     finish(run);
 }
