@@ -15,10 +15,11 @@
 ///     value = s^8 (577.5 - 1375 s + 1105.5 s^2 - 300 s^3)/8,   K = 165 alpha_D/(32 h^2)
 ///     alpha_D = 273/(106 pi h^3), 312/(115 pi h^2)
 ///
-/// Particles on a lattice under pressure are a solid: they resist shear, and water that flows or
-/// waves must break it. Of the family this kernel lets the cubic and the square lattice of spacing
-/// h/2 shear most freely without driving them apart, and its Fourier transform is nowhere below
-/// -1.2e-5, so that particles do not pair (docs/physics.md, tests/unit/test_kernel.c).
+/// Particles under pressure are a solid: they resist shear, and water that flows or waves must
+/// break it. What holds molten water is with this kernel a twentieth of what it is with Wendland's;
+/// the square and cubic lattices of spacing h/2 in which water starts are hardly unstable, and its
+/// Fourier transform is nowhere below -1.2e-5, so that particles do not pair (docs/physics.md,
+/// tests/unit/test_kernel.c).
 #ifndef FAIRLEAD_PHYSICS_KERNEL_H
 #define FAIRLEAD_PHYSICS_KERNEL_H
 
