@@ -53,7 +53,7 @@ typedef struct BackendSetup {
     double barrier_min[3], barrier_max[3]; ///< planes of fixed walls and bed [m]; infinite = none
     double barrier_top;                    ///< z of the walls' upper edge [m]
     double spacing, smoothing_length, particle_mass; ///< [m], [m], [kg]
-    Kernel kernel;
+    Kernel kernel;                                   ///< of pressure, density and shifting
     double rest_density, sound_speed, alpha, delta;
     double viscosity;      ///< kinematic [m^2/s]
     double shifting;       ///< A of physics/shift.h [-]
