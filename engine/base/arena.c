@@ -10,6 +10,7 @@
 enum { FIRST_BLOCK = 0, LARGEST_BLOCK = 0 };
 #else
 #include <sys/mman.h>
+#include <unistd.h>
 enum { FIRST_BLOCK = 1 << 18, LARGEST_BLOCK = 1 << 26 };
 #endif
 
@@ -42,14 +43,21 @@ static void *pages_take(size_t size)
 }
 static void pages_give_back(ArenaBlock *block) { free(block); }
 #else
-/// Large blocks are asked to be huge pages: a sweep reads ten arrays at forty places at a time,
-/// more small pages than the first-level TLB holds (docs/performance.md).
+/// Large blocks are asked to be huge pages: a sweep reads clusters at forty places at a time, more
+/// small pages than the first-level TLB holds (docs/performance.md). They begin where huge pages
+/// do, or how much of a block can be huge, and how much room a run takes, would be left to chance.
 static void *pages_take(size_t size)
 {
-    void *pages = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    const size_t huge = (size_t)2 << 20, room = size >= huge ? size + huge : size;
+    char *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (pages == MAP_FAILED) return NULL;
-    if (size >= (2U << 20)) (void)madvise(pages, size, MADV_HUGEPAGE); // a wish; refusal is fine
-    return pages;
+    if (room == size) return pages;
+    size_t before = (huge - (uintptr_t)pages % huge) % huge;
+    if (before) munmap(pages, before);
+    size_t page = (size_t)sysconf(_SC_PAGESIZE), used = (size + page - 1) / page * page;
+    if (room > before + used) munmap(pages + before + used, room - before - used);
+    (void)madvise(pages + before, size, MADV_HUGEPAGE); // a wish; refusal is fine
+    return pages + before;
 }
 static void pages_give_back(ArenaBlock *block) { munmap(block, block->size); }
 #endif
