@@ -19,19 +19,19 @@ double cpu_clock(void)
 static void place(ParticleSet *set, const Grid *grid, int slot, int id, Vec3 position)
 {
     set->id[slot] = id;
-    set->position[0][slot] = to_coordinate(grid, 0, position.x);
-    set->position[1][slot] = to_coordinate(grid, 1, position.y);
-    set->position[2][slot] = to_coordinate(grid, 2, position.z);
+    *position_of(set, 0, slot) = to_coordinate(grid, 0, position.x);
+    *position_of(set, 1, slot) = to_coordinate(grid, 1, position.y);
+    *position_of(set, 2, slot) = to_coordinate(grid, 2, position.z);
 }
 
 static void place_particles(Backend *b, const ParticleStart *start)
 {
     for (int i = 0; i < start->fluid_count; i++) {
         place(&b->fluid, &b->grid, i, i, start->fluid_position[i]);
-        b->fluid.field[VELOCITY_X][i] = (float)start->fluid_velocity[i].x;
-        b->fluid.field[VELOCITY_Y][i] = (float)start->fluid_velocity[i].y;
-        b->fluid.field[VELOCITY_Z][i] = (float)start->fluid_velocity[i].z;
-        b->fluid.field[EXCESS][i] = start->fluid_excess[i];
+        *velocity_of(&b->fluid, 0, i) = (float)start->fluid_velocity[i].x;
+        *velocity_of(&b->fluid, 1, i) = (float)start->fluid_velocity[i].y;
+        *velocity_of(&b->fluid, 2, i) = (float)start->fluid_velocity[i].z;
+        *excess_of(&b->fluid, i) = start->fluid_excess[i];
     }
     int fixed = 0, moving = 0;
     for (int i = 0; i < start->dummy_count; i++) {
@@ -51,9 +51,11 @@ static void place_particles(Backend *b, const ParticleStart *start)
 static bool take_moving(Backend *b, int count, Arena *arena, Error *error)
 {
     ParticleSet *m = &b->moving;
-    TRY(set_create(m, &b->grid, count, MOVING_FIELDS, arena, error));
+    TRY(set_create(m, &b->grid, count, OCTET_DUMMY, arena, error));
     size_t slots = (size_t)m->slot_capacity;
     for (int a = 0; a < 3; a++) {
+        TRY(m->acceleration[a] =
+                arena_take(arena, slots, sizeof(float), "particles.acceleration", error));
         TRY(m->rate[a] = arena_take(arena, slots, sizeof(float), "particles.rate", error));
         TRY(m->target[a] = arena_take(arena, slots, sizeof(int32_t), "particles.target", error));
     }
@@ -70,8 +72,8 @@ static bool take_arrays(Backend *b, const ParticleStart *start, Arena *arena, Er
     for (int i = 0; i < start->dummy_count; i++)
         moving += start->dummy_owner[i] != OWNER_FIXED;
     int fixed = start->dummy_count - moving;
-    TRY(set_create(&b->fluid, &b->grid, start->fluid_count, FLUID_FIELDS, arena, error));
-    if (fixed) TRY(set_create(&b->fixed, &b->grid, fixed, 0, arena, error));
+    TRY(set_create(&b->fluid, &b->grid, start->fluid_count, OCTET_FLUID, arena, error));
+    if (fixed) TRY(set_create(&b->fixed, &b->grid, fixed, OCTET_DUMMY, arena, error));
     if (moving) TRY(take_moving(b, moving, arena, error));
     int slots = b->fluid.slot_capacity;
     slots = slots > b->fixed.slot_capacity ? slots : b->fixed.slot_capacity;
@@ -335,9 +337,7 @@ static void sum_loads(Backend *b, const Vec3 *about, BodyLoad *loads)
         int body = b->moving_owner[m->id[slot]];
         Vec3 force =
             vec3(factor * m->rate[0][slot], factor * m->rate[1][slot], factor * m->rate[2][slot]);
-        Vec3 arm = vec3(to_metres(&b->grid, 0, m->position[0][slot]) - about[body].x,
-                        to_metres(&b->grid, 1, m->position[1][slot]) - about[body].y,
-                        to_metres(&b->grid, 2, m->position[2][slot]) - about[body].z);
+        Vec3 arm = vec3_sub(place_of(&b->grid, m, slot), about[body]);
         loads[body].force = vec3_add(loads[body].force, force);
         loads[body].moment = vec3_add(loads[body].moment, vec3_cross(arm, force));
     }
@@ -395,6 +395,16 @@ static bool cpu_forces(Backend *b, const Vec3 *about, BodyLoad *loads, Error *er
     return true;
 }
 
+/// The kept arrays of all octets in use, one octet's after the other's.
+static void octets_transfer(ParticleSet *set, char *to, const char *from)
+{
+    size_t size = (size_t)set->kept * sizeof set->octet->excess;
+    for (size_t c = 0; c < (size_t)set->cluster_count; c++) {
+        if (to) memcpy(to + c * size, &set->octet[c], size);
+        if (from) memcpy(&set->octet[c], from + c * size, size);
+    }
+}
+
 /// Bytes of one set that a checkpoint has room for; with `to` what is in use is written, with
 /// `from` read.
 static size_t set_transfer(ParticleSet *set, char *to, const char *from)
@@ -410,10 +420,10 @@ static size_t set_transfer(ParticleSet *set, char *to, const char *from)
     MOVE(&set->cluster_count, sizeof(int), sizeof(int));
     size_t room = (size_t)set->slot_capacity * item;
     size_t used = (size_t)set->cluster_count * CLUSTER * item;
-    for (int a = 0; a < 3; a++)
-        MOVE(set->position[a], room, used);
-    for (int f = 0; f < set->field_count; f++)
-        MOVE(set->field[f], room, used);
+    octets_transfer(set, to ? to + size : NULL, from ? from + size : NULL);
+    size += (size_t)set->kept * room;
+    for (int a = 0; a < 3 && set->acceleration[a]; a++)
+        MOVE(set->acceleration[a], room, used);
     MOVE(set->id, room, used);
 #undef MOVE
     return size;

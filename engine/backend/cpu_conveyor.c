@@ -70,11 +70,11 @@ bool conveyor_create(Backend *b, Arena *arena, Error *error)
 static double energy_of(const Backend *b, int slot)
 {
     const ParticleSet *f = &b->fluid;
-    double speed2 = 0, height = b->grid.unit * f->position[2][slot];
+    double speed2 = 0, height = b->grid.unit * *position_of(f, 2, slot);
     for (int a = 0; a < 3; a++)
-        speed2 += (double)f->field[VELOCITY_X + a][slot] * (double)f->field[VELOCITY_X + a][slot];
+        speed2 += (double)*velocity_of(f, a, slot) * (double)*velocity_of(f, a, slot);
     return 0.5 * speed2 + b->setup.gravity * height +
-           tait_energy_torn(f->field[EXCESS][slot], b->excess_floor, b->sweep.tait_b,
+           tait_energy_torn(*excess_of(f, slot), b->excess_floor, b->sweep.tait_b,
                             b->setup.rest_density);
 }
 
@@ -121,11 +121,9 @@ static Ranking list_leaving(const Passage *p)
     int begun = 0, slots = f->cluster_count * CLUSTER;
     Vec3 face[BLOCK], place[BLOCK];
     for (int i = 0; i < slots; i++) {
-        double at = to_metres(&b->grid, p->axis, f->position[p->axis][i]);
+        double at = to_metres(&b->grid, p->axis, *position_of(f, p->axis, i));
         if (f->id[i] >= 0 && p->sign * (at - near) > 0) {
-            Vec3 here = vec3(to_metres(&b->grid, 0, f->position[0][i]) - p->carried[0],
-                             to_metres(&b->grid, 1, f->position[1][i]) - p->carried[1],
-                             to_metres(&b->grid, 2, f->position[2][i]));
+            Vec3 here = vec3_sub(place_of(&b->grid, f, i), vec3(p->carried[0], p->carried[1], 0));
             face[list.count - begun] = shifted(here, p->axis, p->outflow - at);
             list.key[list.count] = (float)at;
             list.slot[list.count++] = i;
@@ -219,12 +217,12 @@ static void settle(const Passage *p, int slot)
     advance->ring(advance->waves, advance->time + advance->dt, 1, &mean, &now);
     advance->ring(advance->waves, advance->time, 1, &mean, &before);
     Vec3 v = vec3_scale(vec3_sub(now, before), 1 / advance->dt);
-    m->position[0][slot] = to_coordinate(grid, 0, now.x);
-    m->position[1][slot] = to_coordinate(grid, 1, now.y);
-    m->position[2][slot] = to_coordinate(grid, 2, now.z);
-    m->field[VELOCITY_X][slot] = (float)v.x;
-    m->field[VELOCITY_Y][slot] = (float)v.y;
-    m->field[VELOCITY_Z][slot] = (float)v.z;
+    *position_of(m, 0, slot) = to_coordinate(grid, 0, now.x);
+    *position_of(m, 1, slot) = to_coordinate(grid, 1, now.y);
+    *position_of(m, 2, slot) = to_coordinate(grid, 2, now.z);
+    *velocity_of(m, 0, slot) = (float)v.x;
+    *velocity_of(m, 1, slot) = (float)v.y;
+    *velocity_of(m, 2, slot) = (float)v.z;
 }
 
 /// Mean place of what is at `place`, by substitution.
@@ -246,18 +244,16 @@ static void change_parts(const Passage *p, int dummy, int water)
     Backend *b = p->backend;
     ParticleSet *f = &b->fluid, *m = &b->moving;
     double rho0 = b->setup.rest_density, excess = 0;
-    Vec3 left = vec3(to_metres(&b->grid, 0, f->position[0][water]),
-                     to_metres(&b->grid, 1, f->position[1][water]),
-                     to_metres(&b->grid, 2, f->position[2][water]));
+    Vec3 left = place_of(&b->grid, f, water);
     for (int i = 0; i < 4; i++) { // P = p/rho^2
         double rho = rho0 * (1 + excess);
-        excess = tait_excess((float)((double)m->pressure[dummy] * rho * rho), b->sweep.tait_b);
+        excess = tait_excess((float)((double)*pressure_of(m, dummy) * rho * rho), b->sweep.tait_b);
     }
     for (int a = 0; a < 3; a++) {
-        f->position[a][water] = m->position[a][dummy];
-        f->field[VELOCITY_X + a][water] = m->field[VELOCITY_X + a][dummy];
+        *position_of(f, a, water) = *position_of(m, a, dummy);
+        *velocity_of(f, a, water) = *velocity_of(m, a, dummy);
     }
-    f->field[EXCESS][water] = (float)excess;
+    *excess_of(f, water) = (float)excess;
     b->moving_reference[m->id[dummy]] = mean_of(p, left);
     settle(p, dummy);
 }

@@ -4,16 +4,17 @@
 #include "backend/terms.h"
 #include "backend/visits.h"
 
-/// Moments: one particle and the eight at `base`, which have the same share in each other's.
-FN void visit_moment(const Self *self, const Arrays *other, size_t base, float per_support,
+/// Moments: one particle and the eight of cluster c, which have the same share in each other's.
+FN void visit_moment(const Self *self, const Arrays *other, size_t c, float per_support,
                      const Terms *react, Symmetric *sum)
 {
-    Offset d = offset_to(self, other, base);
+    Offset d = offset_to(self, &other->octet[c]);
     // lengths over the support: their fifth power in units would not be a float
     Lanes scale = lanes_all(per_support);
-    Lanes slope = kernel_slope(pair_closeness(offset_square(d), per_support));
+    Lanes slope = kernel_slope(pair_closeness(lane_sqrt(offset_square(d)), per_support));
     Symmetric m = gradient_moment(slope, scale * d.x, scale * d.y, scale * d.z);
     *sum = terms_sum(*sum, m);
+    const size_t base = c * CLUSTER;
     if (react) terms_store(react, base, terms_sum(terms_load(react, base), m));
 }
 
@@ -24,15 +25,15 @@ FN void moment_of_particle(const Sweep *sweep, const Arrays *fluid, const Terms 
     const Self self = self_of(fluid, i * CLUSTER + l);
     Symmetric sum = no_terms();
     Visits visits = visits_of(sweep->fluid_fluid, i, l);
-    for (size_t base; visits_next(&visits, &base);)
-        visit_moment(&self, fluid, base, per_support, terms, &sum);
-    visit_moment(&self, fluid, (size_t)i * CLUSTER, per_support, NULL, &sum);
+    for (size_t c; visits_next(&visits, &c);)
+        visit_moment(&self, fluid, c, per_support, terms, &sum);
+    visit_moment(&self, fluid, (size_t)i, per_support, NULL, &sum);
     for (int set = 0; set < 2; set++) {
         if (!has_walls(sweep, set, i)) continue;
         const Arrays walls = arrays_of(sweep->walls[set]);
         visits = visits_of(sweep->fluid_wall[set], i, l);
-        for (size_t base; visits_next(&visits, &base);)
-            visit_moment(&self, &walls, base, per_support, NULL, &sum);
+        for (size_t c; visits_next(&visits, &c);)
+            visit_moment(&self, &walls, c, per_support, NULL, &sum);
     }
     terms_add_total(terms, i * CLUSTER + l, sum);
 }
@@ -60,61 +61,58 @@ void AT_KERNEL(gradient_invert)(const Sweep *sweep, int begin, int end)
     }
 }
 
-/// Momentum: one particle and the eight at `base`. @param weights  P_i B_i + P_k B_k
-FN void visit_force(const Self *self, const Arrays *other, size_t base, const SweepConstants c,
-                    Symmetric weights, bool viscous, bool react, Lanes sum[3])
+/// Momentum: one particle and the eight of cluster c. @param weights  P_i B_i + P_k B_k
+FN void visit_force(const Self *self, const Arrays *other, size_t c, const SweepConstants k,
+                    Symmetric weights, bool viscous, bool reacts, Lanes sum[3])
 {
-    Offset d = offset_to(self, other, base);
-    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.per_support);
-    Lanes slope = kernel_slope(closeness), drag = lanes_all(0);
-    // no pressures: what is left is viscosity
-    if (viscous) drag = pair_force(closeness, r2, drag, approach_of(self, other, base, d), c);
+    Offset d = offset_to(self, &other->octet[c]);
+    Lanes r2 = offset_square(d);
+    Lanes slope = kernel_slope(pair_closeness(lane_sqrt(r2), k.per_support)), drag = lanes_all(0);
+    if (viscous) drag = -slope * pair_drag(r2, approach_of(self, &other->octet[c], d), k);
     Lanes x = slope * (weights.xx * d.x + weights.xy * d.y + weights.xz * d.z) + drag * d.x;
     Lanes y = slope * (weights.xy * d.x + weights.yy * d.y + weights.yz * d.z) + drag * d.y;
     Lanes z = slope * (weights.xz * d.x + weights.yz * d.y + weights.zz * d.z) + drag * d.z;
     sum[0] += x;
     sum[1] += y;
     sum[2] += z;
-    if (!react) return;
-    lanes_store(other->rate[0] + base, lanes_load(other->rate[0] + base) - x);
-    lanes_store(other->rate[1] + base, lanes_load(other->rate[1] + base) - y);
-    lanes_store(other->rate[2] + base, lanes_load(other->rate[2] + base) - z);
+    const Offset force = {x, y, z};
+    if (reacts) react(other, c, lanes_all(1), force);
 }
 
 FN Symmetric fluid_weights(const Self *self, Symmetric own, const Arrays *fluid, const Terms *terms,
-                           size_t base)
+                           size_t c)
 {
-    return gradient_weigh(self->pressure, own, lanes_load(fluid->pressure + base),
-                          terms_load(terms, base));
+    return gradient_weigh(self->pressure, own, lanes_load(fluid->octet[c].pressure),
+                          terms_load(terms, c * CLUSTER));
 }
 
 /// A dummy has the correction of the particle it meets.
-FN Symmetric wall_weights(const Self *self, Symmetric own, const Arrays *walls, size_t base)
+FN Symmetric wall_weights(const Self *self, Symmetric own, const Arrays *walls, size_t c)
 {
-    return gradient_weigh(self->pressure, own, lanes_load(walls->pressure + base), own);
+    return gradient_weigh(self->pressure, own, lanes_load(walls->octet[c].pressure), own);
 }
 
 FN void force_of_particle(const Sweep *sweep, const Arrays *fluid, const Terms *terms, int i, int l,
                           bool viscous)
 {
-    const SweepConstants c = sweep->constants;
+    const SweepConstants k = sweep->constants;
     const Self self = self_of(fluid, i * CLUSTER + l);
     const Symmetric own = terms_own(terms, i * CLUSTER + l);
     Lanes sum[3] = {lanes_all(0), lanes_all(0), lanes_all(0)};
     Visits visits = visits_of(sweep->fluid_fluid, i, l);
-    for (size_t base; visits_next(&visits, &base);)
-        visit_force(&self, fluid, base, c, fluid_weights(&self, own, fluid, terms, base), viscous,
-                    true, sum);
-    size_t same = (size_t)i * CLUSTER;
-    visit_force(&self, fluid, same, c, fluid_weights(&self, own, fluid, terms, same), viscous,
+    for (size_t c; visits_next(&visits, &c);)
+        visit_force(&self, fluid, c, k, fluid_weights(&self, own, fluid, terms, c), viscous, true,
+                    sum);
+    const size_t same = (size_t)i;
+    visit_force(&self, fluid, same, k, fluid_weights(&self, own, fluid, terms, same), viscous,
                 false, sum);
     for (int set = 0; set < 2; set++) {
         if (!has_walls(sweep, set, i)) continue;
         const Arrays walls = arrays_of(sweep->walls[set]);
         visits = visits_of(sweep->fluid_wall[set], i, l);
-        for (size_t base; visits_next(&visits, &base);)
-            visit_force(&self, &walls, base, c, wall_weights(&self, own, &walls, base), false,
-                        false, sum);
+        for (size_t c; visits_next(&visits, &c);)
+            visit_force(&self, &walls, c, k, wall_weights(&self, own, &walls, c), false, false,
+                        sum);
     }
     for (int a = 0; a < 3; a++)
         fluid->rate[a][i * CLUSTER + l] += lanes_total(sum[a]);
@@ -143,7 +141,7 @@ void AT_KERNEL(gradient_viscous)(const Sweep *sweep, int begin, int end)
 void AT_KERNEL(gradient_loads)(const Sweep *sweep, int begin, int end)
 {
     ParticleSet *wall = sweep->walls[1];
-    const SweepConstants c = sweep->constants;
+    const SweepConstants k = sweep->constants;
     const Arrays walls = arrays_of(wall), fluid = arrays_of(sweep->fluid);
     const Terms terms = terms_of(sweep->fluid->correction);
     for (int slot = begin * CLUSTER; slot < end * CLUSTER; slot++) {
@@ -152,9 +150,9 @@ void AT_KERNEL(gradient_loads)(const Sweep *sweep, int begin, int end)
         if (id >= 0 && sweep->moving_owner[id] >= 0 && sweep->wall_fluid[1]->count[i]) {
             const Self self = self_of(&walls, slot);
             Visits visits = visits_of(sweep->wall_fluid[1], i, slot % CLUSTER);
-            for (size_t base; visits_next(&visits, &base);)
-                visit_force(&self, &fluid, base, c,
-                            wall_weights(&self, terms_load(&terms, base), &fluid, base), false,
+            for (size_t c; visits_next(&visits, &c);)
+                visit_force(&self, &fluid, c, k,
+                            wall_weights(&self, terms_load(&terms, c * CLUSTER), &fluid, c), false,
                             false, sum);
         }
         for (int a = 0; a < 3; a++)

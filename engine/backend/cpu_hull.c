@@ -70,9 +70,7 @@ static void hold_particle(Backend *b, const Advance *advance, int body, int slot
     const BodyPose *now = &advance->poses[body];
     HullHold *hull = &b->hulls[body];
     ParticleSet *f = &b->fluid;
-    Vec3 place = vec3(to_metres(&b->grid, 0, f->position[0][slot]),
-                      to_metres(&b->grid, 1, f->position[1][slot]),
-                      to_metres(&b->grid, 2, f->position[2][slot]));
+    Vec3 place = place_of(&b->grid, f, slot);
     Vec3 arm = vec3_sub(place, now->origin);
     Vec3 at = quat_rotate(quat_conjugate(now->attitude), arm);
     if (at.x < hull->min.x || at.x > hull->max.x || at.y < hull->min.y || at.y > hull->max.y ||
@@ -82,15 +80,15 @@ static void hold_particle(Backend *b, const Advance *advance, int body, int slot
     if (behind < DEEPEST * b->setup.spacing) return;
     Vec3 out = quat_rotate(now->attitude, outwards(b, advance, body, at));
     Vec3 before = vec3_add(hull->pose.origin, quat_rotate(hull->pose.attitude, at));
-    Vec3 v = vec3((double)f->field[VELOCITY_X][slot], (double)f->field[VELOCITY_Y][slot],
-                  (double)f->field[VELOCITY_Z][slot]);
+    Vec3 v = vec3((double)*velocity_of(f, 0, slot), (double)*velocity_of(f, 1, slot),
+                  (double)*velocity_of(f, 2, slot));
     Vec3 relative = vec3_mad(v, vec3_sub(place, before), -1 / advance->dt);
     double gain = speed_back(b, behind, advance->dt) - vec3_dot(relative, out);
     if (gain <= 0) return;
     v = vec3_mad(v, out, gain);
-    f->field[VELOCITY_X][slot] = (float)v.x;
-    f->field[VELOCITY_Y][slot] = (float)v.y;
-    f->field[VELOCITY_Z][slot] = (float)v.z;
+    *velocity_of(f, 0, slot) = (float)v.x;
+    *velocity_of(f, 1, slot) = (float)v.y;
+    *velocity_of(f, 2, slot) = (float)v.z;
     Vec3 given = vec3_scale(out, -gain * b->setup.particle_mass), moment = vec3_cross(arm, given);
     double quantum = impulse_quantum(b), turn = quantum * b->setup.spacing;
     add_quanta(&hull->impulse[0], given.x, quantum);
@@ -130,11 +128,14 @@ static void hold_row(Backend *b, const Advance *advance, int body, int row, cons
                      const int32_t high[3])
 {
     const ParticleSet *f = &b->fluid;
-    const int32_t *x = f->position[0], *y = f->position[1], *z = f->position[2];
-    for (int i = f->row_begin[row] * CLUSTER; i < f->row_begin[row + 1] * CLUSTER; i++)
-        if (x[i] >= low[0] && x[i] <= high[0] && y[i] >= low[1] && y[i] <= high[1] &&
-            z[i] >= low[2] && z[i] <= high[2] && f->id[i] >= 0)
-            hold_particle(b, advance, body, i);
+    for (int i = f->row_begin[row] * CLUSTER; i < f->row_begin[row + 1] * CLUSTER; i++) {
+        bool near = f->id[i] >= 0;
+        for (int a = 0; a < 3; a++) {
+            int32_t at = *position_of(f, a, i);
+            near = near && at >= low[a] && at <= high[a];
+        }
+        if (near) hold_particle(b, advance, body, i);
+    }
 }
 
 void hulls_hold(Backend *b, const Advance *advance, double fastest)

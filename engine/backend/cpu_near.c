@@ -59,10 +59,11 @@ FN Lanes outside(IntLanes x, int32_t min, int32_t max)
 FN IntLanes near_particles(const Points *p, const ParticleSet *set, uint32_t c, float reach_squared)
 {
     IntLanes near = lanes_all_int(0);
-    for (uint32_t k = c * CLUSTER; k < (c + 1) * CLUSTER; k++) {
-        Lanes dx = lanes_from_int(p->x - set->position[0][k]);
-        Lanes dy = lanes_from_int(p->y - set->position[1][k]);
-        Lanes dz = lanes_from_int(p->z - set->position[2][k]);
+    const Octet *o = &set->octet[c];
+    for (int k = 0; k < CLUSTER; k++) {
+        Lanes dx = lanes_from_int(p->x - o->position[0][k]);
+        Lanes dy = lanes_from_int(p->y - o->position[1][k]);
+        Lanes dz = lanes_from_int(p->z - o->position[2][k]);
         near |= dx * dx + dy * dy + dz * dz < reach_squared;
     }
     return near;
@@ -93,9 +94,9 @@ FN void prune(ClusterList *list, const ParticleSet *a, const ParticleSet *b, int
     const uint32_t *entry = list->entry + list->begin[i];
     int count = (int)list->count[i], bytes = (count + 7) / 8;
     uint8_t *bits = list->near + list->begin[i];
-    const Points p = {lanes_load_int(a->position[0] + i * CLUSTER),
-                      lanes_load_int(a->position[1] + i * CLUSTER),
-                      lanes_load_int(a->position[2] + i * CLUSTER)};
+    const Octet *eight = &a->octet[i];
+    const Points p = {lanes_load_int(eight->position[0]), lanes_load_int(eight->position[1]),
+                      lanes_load_int(eight->position[2])};
     for (int k = 0; k < count; k += 32) {
         int entries = count - k < 32 ? count - k : 32;
         IntLanes word = visit_bits(&p, b, entry + k, entries, reach_squared, exact);

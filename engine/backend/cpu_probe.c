@@ -6,7 +6,7 @@
 
 static float pressure_at(const Backend *b, int slot)
 {
-    return tait_pressure(tension_bearing(b->fluid.field[EXCESS][slot], b->excess_floor),
+    return tait_pressure(tension_bearing(*excess_of(&b->fluid, slot), b->excess_floor),
                          b->sweep.tait_b);
 }
 
@@ -18,8 +18,8 @@ void cpu_download(Backend *b, float (*position)[3], float (*velocity)[3], float 
         int id = f->id[i];
         if (id < 0) continue;
         for (int a = 0; a < 3; a++) {
-            if (position) position[id][a] = (float)to_metres(&b->grid, a, f->position[a][i]);
-            if (velocity) velocity[id][a] = f->field[VELOCITY_X + a][i];
+            if (position) position[id][a] = (float)to_metres(&b->grid, a, *position_of(f, a, i));
+            if (velocity) velocity[id][a] = *velocity_of(f, a, i);
         }
         if (pressure) pressure[id] = pressure_at(b, i);
     }
@@ -44,10 +44,10 @@ static void column_colour(const Backend *b, double x, double y, double z0, doubl
             continue;
         for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++) {
             if (f->id[i] < 0) continue;
-            double dx = b->grid.unit * (f->position[0][i] - cx);
-            double dy = b->grid.unit * (f->position[1][i] - cy);
+            double dx = b->grid.unit * (*position_of(f, 0, i) - cx);
+            double dy = b->grid.unit * (*position_of(f, 1, i) - cy);
             if (dx * dx + dy * dy >= 4 * h * h) continue;
-            double z = to_metres(&b->grid, 2, f->position[2][i]);
+            double z = to_metres(&b->grid, 2, *position_of(f, 2, i));
             for (int k = 0; k < count; k++) {
                 double d = z0 + k * dz - z, r = sqrt(dx * dx + dy * dy + d * d);
                 float s = (float)(1 - r / (2 * h));
@@ -68,9 +68,9 @@ static double highest_near(const Backend *b, double x, double y)
             f->boxes.min[1][c] > cy + reach || f->boxes.max[1][c] < cy - reach)
             continue;
         for (int i = c * CLUSTER; i < (c + 1) * CLUSTER; i++)
-            if (f->id[i] >= 0 && fabs((double)f->position[0][i] - cx) <= reach &&
-                fabs((double)f->position[1][i] - cy) <= reach && f->position[2][i] > top)
-                top = f->position[2][i];
+            if (f->id[i] >= 0 && fabs((double)*position_of(f, 0, i) - cx) <= reach &&
+                fabs((double)*position_of(f, 1, i) - cy) <= reach && *position_of(f, 2, i) > top)
+                top = *position_of(f, 2, i);
     }
     return top < 0 ? NAN : to_metres(&b->grid, 2, top);
 }
@@ -155,9 +155,9 @@ static bool next_near(Near *near)
         int i = near->slot;
         if (i % CLUSTER == 0 && !cluster_in_reach(near, i / CLUSTER)) near->slot += CLUSTER - 1;
         if (near->slot != i || f->id[i] < 0) continue;
-        near->from = vec3(b->grid.unit * (f->position[0][i] - near->at[0]),
-                          b->grid.unit * (f->position[1][i] - near->at[1]),
-                          b->grid.unit * (f->position[2][i] - near->at[2]));
+        near->from = vec3(b->grid.unit * (*position_of(f, 0, i) - near->at[0]),
+                          b->grid.unit * (*position_of(f, 1, i) - near->at[1]),
+                          b->grid.unit * (*position_of(f, 2, i) - near->at[2]));
         float s = (float)(1 - vec3_norm(near->from) / (2 * b->setup.smoothing_length));
         if (s <= 0) continue;
         near->weight = wendland_value(s);
@@ -185,7 +185,7 @@ void cpu_velocity(Backend *b, Vec3 point, Vec3 *velocity, double *share)
     for (Near near = near_point(b, point); next_near(&near);) {
         weight += near.weight;
         for (int a = 0; a < 3; a++)
-            sum[a] += near.weight * b->fluid.field[VELOCITY_X + a][near.slot];
+            sum[a] += near.weight * *velocity_of(&b->fluid, a, near.slot);
     }
     double volume = b->setup.particle_mass / b->setup.rest_density;
     *share = weight * volume *
@@ -204,9 +204,7 @@ static void add_colour(const Backend *b, const ParticleSet *set, Vec3 from, Vec3
     Vec3 along = vec3_scale(step, 1 / length);
     for (int i = 0; i < set->cluster_count * CLUSTER; i++) {
         if (set->id[i] < 0) continue;
-        Vec3 d = vec3(to_metres(&b->grid, 0, set->position[0][i]) - from.x,
-                      to_metres(&b->grid, 1, set->position[1][i]) - from.y,
-                      to_metres(&b->grid, 2, set->position[2][i]) - from.z);
+        Vec3 d = vec3_sub(place_of(&b->grid, set, i), from);
         double x = vec3_dot(d, along), across2 = vec3_dot(d, d) - x * x;
         if (across2 >= reach * reach) continue;
         double half = sqrt(reach * reach - maxd(across2, 0));
@@ -248,9 +246,7 @@ void cpu_columns(const Backend *b, const BodyPose *pose, Vec3 min, Vec3 max, con
         volume[k] = 0;
     for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
         if (f->id[i] < 0) continue;
-        Vec3 d = vec3(to_metres(&b->grid, 0, f->position[0][i]) - pose->origin.x,
-                      to_metres(&b->grid, 1, f->position[1][i]) - pose->origin.y,
-                      to_metres(&b->grid, 2, f->position[2][i]) - pose->origin.z);
+        Vec3 d = vec3_sub(place_of(&b->grid, f, i), pose->origin);
         Vec3 at = quat_rotate(quat_conjugate(pose->attitude), d);
         bool outside = at.x < min.x || at.x >= max.x || at.z < min.z || at.z >= max.z;
         if (outside || at.y < min.y || at.y >= max.y) continue;
@@ -268,9 +264,9 @@ FluidEnergy cpu_energy(const Backend *b)
     for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
         if (f->id[i] < 0) continue;
         for (int a = 0; a < 3; a++)
-            square += (double)f->field[VELOCITY_X + a][i] * f->field[VELOCITY_X + a][i];
-        height += to_metres(&b->grid, 2, f->position[2][i]);
-        elastic += tait_energy_torn(f->field[EXCESS][i], b->excess_floor, b->sweep.tait_b,
+            square += (double)*velocity_of(f, a, i) * *velocity_of(f, a, i);
+        height += to_metres(&b->grid, 2, *position_of(f, 2, i));
+        elastic += tait_energy_torn(*excess_of(f, i), b->excess_floor, b->sweep.tait_b,
                                     b->setup.rest_density);
     }
     double mass = b->setup.particle_mass;

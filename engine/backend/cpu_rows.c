@@ -54,19 +54,22 @@ void rows_note_velocity(Rows *rows, const ParticleSet *set, int row)
 {
     if (!set->count) return;
     VelocitySpan *span = &rows->span[row];
-    int begin = set->row_begin[row] * CLUSTER, end = set->row_begin[row + 1] * CLUSTER;
+    int begin = set->row_begin[row], end = set->row_begin[row + 1];
     for (int a = 0; a < 3; a++) {
-        const float *v = set->field[VELOCITY_X + a], *shift = set->shift[a];
+        const float *shift = set->shift[a];
         float low = span->min[a], high = span->max[a];
         // padding has no velocity: the span may only grow by it
+        for (int c = begin; c < end; c++) {
+            const float *v = set->octet[c].velocity[a];
 #pragma omp simd reduction(min : low) reduction(max : high)
-        for (int i = begin; i < end; i++) {
-            low = v[i] < low ? v[i] : low;
-            high = v[i] > high ? v[i] : high;
-        }
-        for (int i = begin; i < end && shift; i++) {
-            low = minf(low, v[i] + shift[i]);
-            high = maxf(high, v[i] + shift[i]);
+            for (int l = 0; l < CLUSTER; l++) {
+                low = v[l] < low ? v[l] : low;
+                high = v[l] > high ? v[l] : high;
+            }
+            for (int l = 0; l < CLUSTER && shift; l++) {
+                low = minf(low, v[l] + shift[c * CLUSTER + l]);
+                high = maxf(high, v[l] + shift[c * CLUSTER + l]);
+            }
         }
         span->min[a] = low;
         span->max[a] = high;

@@ -50,30 +50,21 @@ static int slots_for(const Grid *grid, int count)
     return (count + count / 8) / CLUSTER * CLUSTER + CLUSTER * (2 * rows + 2);
 }
 
-bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
-                Error *error)
+bool set_create(ParticleSet *set, const Grid *grid, int count, int kept, Arena *arena, Error *error)
 {
     memset(set, 0, sizeof *set);
     set->count = count;
-    set->field_count = field_count;
+    set->kept = kept;
     set->slot_capacity = slots_for(grid, count);
     size_t n = (size_t)set->slot_capacity, clusters = n / CLUSTER;
 #define TAKE(pointer, items, type, what)                                                           \
     TRY((pointer) = arena_take(arena, (items), sizeof(type), "particles." what, error))
+    TAKE(set->octet, clusters, Octet, "octet");
     for (int a = 0; a < 3; a++) {
-        TAKE(set->position[a], n, int32_t, "position");
         TAKE(set->boxes.min[a], clusters, int32_t, "boxes");
         TAKE(set->boxes.max[a], clusters, int32_t, "boxes");
     }
-    // a set that never moves has one array of zeros for its three velocities
-    TAKE(set->field[VELOCITY_X], n, float, "field");
-    for (int f = 1; f < 3; f++)
-        set->field[f] = set->field[VELOCITY_X];
-    for (int f = 1; f < field_count; f++)
-        TAKE(set->field[f], n, float, "field");
     TAKE(set->id, n, int32_t, "id");
-    TAKE(set->pressure, n, float, "pressure");
-    set->dynamic = set->pressure; // where there is no D, nobody uses what is read here
     TAKE(set->row_begin, (size_t)grid->row_count + 1, int, "rows");
 #undef TAKE
     // before the first sort the particles lie in slots 0 … count - 1
@@ -81,7 +72,7 @@ bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, 
     for (int i = count; i < set->cluster_count * CLUSTER; i++) {
         set->id[i] = -1;
         for (int a = 0; a < 3; a++)
-            set->position[a][i] = PADDING;
+            *position_of(set, a, i) = PADDING;
     }
     return true;
 }
@@ -126,16 +117,17 @@ static int part_begin(const Sorting *s, int t)
 static void count_rows(const Sorting *s, int t)
 {
     const Grid *grid = s->grid;
-    const int32_t *slab = s->set->position[grid->slab], *across = s->set->position[grid->across];
-    const int32_t *along = s->set->position[grid->along], *id = s->set->id;
+    const ParticleSet *set = s->set;
     int32_t *histogram = s->scratch->histogram + (size_t)t * s->scratch->histogram_size;
     memset(histogram, 0, (size_t)grid->row_count * sizeof *histogram);
     for (int i = part_begin(s, t); i < part_begin(s, t + 1); i++) {
-        if (id[i] < 0) continue;
-        int32_t row = clamp_index(slab[i] / grid->row, grid->slab_rows) * grid->across_rows +
-                      clamp_index(across[i] / grid->row, grid->across_rows);
+        if (set->id[i] < 0) continue;
+        int32_t slab = *position_of(set, grid->slab, i),
+                across = *position_of(set, grid->across, i);
+        int32_t row = clamp_index(slab / grid->row, grid->slab_rows) * grid->across_rows +
+                      clamp_index(across / grid->row, grid->across_rows);
         s->row[i] = row;
-        s->bin[i] = clamp_index(along[i] / grid->bin, grid->bins);
+        s->bin[i] = clamp_index(*position_of(set, grid->along, i) / grid->bin, grid->bins);
         histogram[row]++;
     }
 }
@@ -200,19 +192,35 @@ static int cut_row(const Sorting *s, const int32_t *sorted, int row, int32_t *fr
     return slot;
 }
 
-/// Bring one array (of int32_t or float) into the new order.
-static void gather(void *array, int32_t *spare, const int32_t *from, int slots, int32_t padding)
+/// Bring one array (of int32_t or float) into the new order. @param pitch  from a cluster's eight
+/// to the next one's [byte]
+static void gather(void *array, size_t pitch, int32_t *spare, const int32_t *from, int slots,
+                   int32_t padding)
 {
-    char *item = array;
+    char *first = array;
+#define ITEM(slot)                                                                                 \
+    (first + (size_t)(slot) / CLUSTER * pitch + (size_t)(slot) % CLUSTER * sizeof *spare)
 #pragma omp for schedule(static)
     for (int i = 0; i < slots; i++) {
         int32_t value = padding;
-        if (from[i] >= 0) memcpy(&value, item + sizeof value * (size_t)from[i], sizeof value);
+        if (from[i] >= 0) memcpy(&value, ITEM(from[i]), sizeof value);
         spare[i] = value;
     }
 #pragma omp for schedule(static)
     for (int i = 0; i < slots; i++)
-        memcpy(item + sizeof *spare * (size_t)i, &spare[i], sizeof *spare);
+        memcpy(ITEM(i), &spare[i], sizeof *spare);
+#undef ITEM
+}
+
+static void gather_all(ParticleSet *set, int32_t *spare, const int32_t *from, int slots)
+{
+    const size_t octet = sizeof *set->octet, plain = CLUSTER * sizeof *spare;
+    for (int k = 0; k < set->kept; k++) // positions come first
+        gather((char *)set->octet + (size_t)k * plain, octet, spare, from, slots,
+               k < 3 ? PADDING : 0);
+    for (int a = 0; a < 3 && set->acceleration[a]; a++)
+        gather(set->acceleration[a], plain, spare, from, slots, 0);
+    gather(set->id, plain, spare, from, slots, -1);
 }
 
 void set_sort(ParticleSet *set, const Grid *grid, SortScratch *scratch)
@@ -257,23 +265,19 @@ void set_sort(ParticleSet *set, const Grid *grid, SortScratch *scratch)
 #pragma omp for schedule(dynamic, 16)
         for (int row = 0; row < rows; row++)
             cut_row(&s, sorted, row, from + set->row_begin[row] * CLUSTER);
-        for (int a = 0; a < 3; a++)
-            gather(set->position[a], spare, from, slots, PADDING);
-        for (int f = 0; f < set->field_count; f++)
-            gather(set->field[f], spare, from, slots, 0);
-        gather(set->id, spare, from, slots, -1);
+        gather_all(set, spare, from, slots);
     }
 }
 
 void set_boxes(ParticleSet *set, int begin, int end)
 {
-    for (int a = 0; a < 3; a++) {
-        const int32_t *p = set->position[a];
-        for (int c = begin; c < end; c++) {
+    for (int c = begin; c < end; c++) {
+        for (int a = 0; a < 3; a++) {
+            const int32_t *p = set->octet[c].position[a];
             int32_t low = INT_MAX, high = INT_MIN;
 #pragma omp simd reduction(min : low) reduction(max : high)
             for (int l = 0; l < CLUSTER; l++) {
-                int32_t v = p[c * CLUSTER + l], w = v == PADDING ? INT_MAX : v;
+                int32_t v = p[l], w = v == PADDING ? INT_MAX : v;
                 low = w < low ? w : low;
                 high = v > high ? v : high;
             }

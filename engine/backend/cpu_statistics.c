@@ -13,14 +13,18 @@ static const double DISTANCES_MAX = 1e9;
 static int count_near(const ParticleSet *set, const ParticleSet *fluid, int self,
                       float support_squared)
 {
-    int slots = set->cluster_count * CLUSTER, near = 0;
-    const int32_t *px = set->position[0], *py = set->position[1], *pz = set->position[2];
-    int32_t x = fluid->position[0][self], y = fluid->position[1][self];
-    int32_t z = fluid->position[2][self];
+    int near = 0;
+    int32_t x = *position_of(fluid, 0, self), y = *position_of(fluid, 1, self);
+    int32_t z = *position_of(fluid, 2, self);
+    for (int c = 0; c < set->cluster_count; c++) {
+        const Octet *o = &set->octet[c];
 #pragma omp simd reduction(+ : near)
-    for (int s = 0; s < slots; s++) {
-        float dx = (float)(x - px[s]), dy = (float)(y - py[s]), dz = (float)(z - pz[s]);
-        near += (dx * dx + dy * dy + dz * dz < support_squared) & (set->id[s] >= 0);
+        for (int l = 0; l < CLUSTER; l++) {
+            float dx = (float)(x - o->position[0][l]), dy = (float)(y - o->position[1][l]);
+            float dz = (float)(z - o->position[2][l]);
+            near +=
+                (dx * dx + dy * dy + dz * dz < support_squared) & (set->id[c * CLUSTER + l] >= 0);
+        }
     }
     return near;
 }
@@ -69,16 +73,14 @@ int cpu_worst(const Backend *b, WorstBy by, Vec3 *place)
     float most = -1;
     for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
         if (f->id[i] < 0) continue;
-        float u = f->field[VELOCITY_X][i], v = f->field[VELOCITY_Y][i], w = f->field[VELOCITY_Z][i];
-        float off = fabsf(tension_bearing(f->field[EXCESS][i], b->excess_floor));
+        float u = *velocity_of(f, 0, i), v = *velocity_of(f, 1, i), w = *velocity_of(f, 2, i);
+        float off = fabsf(tension_bearing(*excess_of(f, i), b->excess_floor));
         float size = by == WORST_BY_SPEED ? u * u + v * v + w * w : off;
         if (!(size > most)) continue;
         most = size;
         worst = i;
     }
     if (worst < 0) return -1;
-    *place = vec3(to_metres(&b->grid, 0, f->position[0][worst]),
-                  to_metres(&b->grid, 1, f->position[1][worst]),
-                  to_metres(&b->grid, 2, f->position[2][worst]));
+    *place = place_of(&b->grid, f, worst);
     return f->id[worst];
 }

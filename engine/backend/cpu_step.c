@@ -9,6 +9,9 @@
 
 enum { BLOCK = 256 }; ///< slots handled together: fits the first-level cache
 
+/// The octet of a cluster's first slot.
+static Octet *octet_at(const ParticleSet *set, int slot) { return set->octet + slot / CLUSTER; }
+
 static int block_end(const ParticleSet *set, int begin)
 {
     int end = set->cluster_count * CLUSTER;
@@ -18,11 +21,13 @@ static int block_end(const ParticleSet *set, int begin)
 static void block_pressure(const Backend *b, ParticleSet *f, int begin, int end)
 {
     float tait = b->sweep.tait_b, rho0 = b->sweep.rest_density, floor = b->excess_floor;
-    for (int i = begin; i < end; i++) {
-        float bearing = tension_bearing(f->field[EXCESS][i], floor);
-        float rho = rho0 * (1.0f + bearing);
-        f->pressure[i] = tait_pressure(bearing, tait) / (rho * rho);
-    }
+    for (Octet *o = octet_at(f, begin); o < octet_at(f, end); o++)
+#pragma omp simd
+        for (int l = 0; l < CLUSTER; l++) {
+            float bearing = tension_bearing(o->excess[l], floor);
+            float rho = rho0 * (1.0f + bearing);
+            o->pressure[l] = tait_pressure(bearing, tait) / (rho * rho);
+        }
 }
 
 void AT_LEVEL(step_update_pressure)(Backend *b)
@@ -40,12 +45,18 @@ static void block_dynamic(const Backend *b, ParticleSet *f, int begin, int end)
     float surface = (float)(b->setup.level - b->grid.origin[2]);
     float diffusion = b->sweep.constants.diffusion;
     SurfaceExcess near = b->surface;
-    for (int i = begin; i < end; i++) {
-        float below = surface - unit * (float)f->position[2][i];
-        float at_rest = tait_excess(weight * below, tait);
-        float bearing = tension_bearing(f->field[EXCESS][i], b->excess_floor);
-        f->dynamic[i] =
-            f->id[i] >= 0 ? diffusion * (bearing - at_rest - surface_excess(bearing, near)) : 0.0f;
+    for (int c = begin; c < end; c += CLUSTER) {
+        const Octet *o = octet_at(f, c);
+        const int32_t *id = f->id + c;
+        float *dynamic = f->dynamic + c;
+#pragma omp simd
+        for (int l = 0; l < CLUSTER; l++) {
+            float below = surface - unit * (float)o->position[2][l];
+            float at_rest = tait_excess(weight * below, tait);
+            float bearing = tension_bearing(o->excess[l], b->excess_floor);
+            float d = diffusion * (bearing - at_rest - surface_excess(bearing, near));
+            dynamic[l] = id[l] >= 0 ? d : 0.0f;
+        }
     }
 }
 
@@ -59,13 +70,18 @@ void AT_LEVEL(step_update_dynamic)(Backend *b)
 static void block_kick(const Backend *b, ParticleSet *f, int begin, int end, float dt)
 {
     float factor = dt * b->sweep.constants.acceleration_factor;
-    for (int a = 0; a < 3; a++) {
-        float *v = f->field[VELOCITY_X + a], *rate = f->rate[a], fall = dt * b->sweep.gravity[a];
-        for (int i = begin; i < end; i++)
-            v[i] += f->id[i] >= 0 ? factor * rate[i] + fall : 0.0f;
+    for (int c = begin; c < end; c += CLUSTER) {
+        Octet *o = octet_at(f, c);
+        const int32_t *id = f->id + c;
+        for (int a = 0; a < 3; a++) {
+            const float *rate = f->rate[a] + c;
+            float *v = o->velocity[a], fall = dt * b->sweep.gravity[a];
+#pragma omp simd
+            for (int l = 0; l < CLUSTER; l++)
+                v[l] += id[l] >= 0 ? factor * rate[l] + fall : 0.0f;
+        }
+        if (b->setup.dimensions == 2) memset(o->velocity[1], 0, sizeof o->velocity[1]);
     }
-    if (b->setup.dimensions == 2)
-        memset(f->field[VELOCITY_Y] + begin, 0, sizeof(float) * (size_t)(end - begin));
 }
 
 /// Distance from the nearest side of the zone, less its width: negative inside the zone [m].
@@ -105,7 +121,7 @@ static void hold_before_ring(const Backend *b, ParticleSet *f, const Advance *ad
             float behind = inwards * ((float)(a == 0 ? face[n].x : face[n].y) - at);
             if (behind < 0.25f * (float)b->setup.spacing) continue;
             float back = (float)speed_back(b, (double)behind, (double)dt);
-            float *v = &f->field[VELOCITY_X + a][slot[who[n]]];
+            float *v = velocity_of(f, a, slot[who[n]]);
             if (inwards * *v < back) *v = inwards * back;
         }
     }
@@ -120,15 +136,15 @@ static void block_relax(const Backend *b, ParticleSet *f, int begin, int end,
     int slot[BLOCK], count = 0;
     for (int i = begin; i < end; i++) {
         if (f->id[i] < 0) continue;
-        float px = (float)to_metres(&b->grid, 0, f->position[0][i]);
-        float py = (float)to_metres(&b->grid, 1, f->position[1][i]);
+        float px = (float)to_metres(&b->grid, 0, *position_of(f, 0, i));
+        float py = (float)to_metres(&b->grid, 1, *position_of(f, 1, i));
         float inside = zone_depth(zone, px, py);
         if (inside >= 0) continue;
         float q = -inside / (float)zone->width;
         float p = minf(1.0f, q) * minf(1.0f, q) * dt / (float)zone->time_scale;
         x[count] = px;
         y[count] = py;
-        z[count] = (float)to_metres(&b->grid, 2, f->position[2][i]);
+        z[count] = (float)to_metres(&b->grid, 2, *position_of(f, 2, i));
         share[count] = 1.0f - expf(-p);
         slot[count++] = i;
     }
@@ -141,48 +157,89 @@ static void block_relax(const Backend *b, ParticleSet *f, int begin, int end,
         memset(w, 0, sizeof w);
     }
     for (int k = 0; k < count; k++) {
-        f->field[VELOCITY_X][slot[k]] += share[k] * (u[k] - f->field[VELOCITY_X][slot[k]]);
-        f->field[VELOCITY_Y][slot[k]] += share[k] * (v[k] - f->field[VELOCITY_Y][slot[k]]);
-        f->field[VELOCITY_Z][slot[k]] += share[k] * (w[k] - f->field[VELOCITY_Z][slot[k]]);
+        *velocity_of(f, 0, slot[k]) += share[k] * (u[k] - *velocity_of(f, 0, slot[k]));
+        *velocity_of(f, 1, slot[k]) += share[k] * (v[k] - *velocity_of(f, 1, slot[k]));
+        *velocity_of(f, 2, slot[k]) += share[k] * (w[k] - *velocity_of(f, 2, slot[k]));
     }
     const float *const place[3] = {x, y, z};
     if (advance->ring) hold_before_ring(b, f, advance, dt, count, place, slot);
 }
 
+static void drift_octet(Octet *o, const int32_t *id, int axis, float scale)
+{
+    int32_t *p = o->position[axis];
+    float *v = o->velocity[axis];
+#pragma omp simd
+    for (int l = 0; l < CLUSTER; l++) {
+        float step = v[l] * scale;
+        // an insane step must not overflow the conversion; health finds the particle
+        step = step > 5e8f ? 5e8f : (step < -5e8f ? -5e8f : step);
+        int32_t whole = (int32_t)(step + (step < 0 ? -0.5f : 0.5f));
+        int32_t moved = p[l] + whole;
+        // what flew over a wall comes to rest at the room's end, out of everybody's reach
+        if (moved < 0 || moved > COORDINATE_END - 1) {
+            moved = moved < 0 ? 0 : COORDINATE_END - 1;
+            v[l] = 0;
+        }
+        p[l] = id[l] >= 0 ? moved : PADDING;
+    }
+}
+
 static void block_drift(const Backend *b, ParticleSet *f, int begin, int end, float dt)
 {
     float scale = (float)(dt / b->grid.unit);
-    for (int a = 0; a < 3; a++) {
-        int32_t *p = f->position[a];
-        float *v = f->field[VELOCITY_X + a];
-        for (int i = begin; i < end; i++) {
-            float step = v[i] * scale;
-            // an insane step must not overflow the conversion; health finds the particle
-            step = step > 5e8f ? 5e8f : (step < -5e8f ? -5e8f : step);
-            int32_t whole = (int32_t)(step + (step < 0 ? -0.5f : 0.5f));
-            int32_t moved = p[i] + whole;
-            // what flew over a wall comes to rest at the room's end, out of everybody's reach
-            if (moved < 0 || moved > COORDINATE_END - 1) {
-                moved = moved < 0 ? 0 : COORDINATE_END - 1;
-                v[i] = 0;
-            }
-            p[i] = f->id[i] >= 0 ? moved : PADDING;
-        }
-    }
+    for (int c = begin; c < end; c += CLUSTER)
+        for (int a = 0; a < 3; a++)
+            drift_octet(octet_at(f, c), f->id + c, a, scale);
 }
 
 /// What shifting adds to the path of a step's half; padding has no shift.
 static void block_shift(const Backend *b, ParticleSet *f, int begin, int end, float dt)
 {
     float scale = (float)(dt / b->grid.unit);
-    for (int a = 0; a < 3; a++) {
-        int32_t *p = f->position[a];
-        const float *shift = f->shift[a];
-        for (int i = begin; i < end; i++) {
-            float step = shift[i] * scale;
-            p[i] += (int32_t)(step + (step < 0 ? -0.5f : 0.5f));
+    for (int c = begin; c < end; c += CLUSTER)
+        for (int a = 0; a < 3; a++) {
+            int32_t *p = octet_at(f, c)->position[a];
+            const float *shift = f->shift[a] + c;
+#pragma omp simd
+            for (int l = 0; l < CLUSTER; l++) {
+                float step = shift[l] * scale;
+                p[l] += (int32_t)(step + (step < 0 ? -0.5f : 0.5f));
+            }
         }
+}
+
+/// Whether one of the eight is behind a barrier's plane.
+static bool octet_beyond(const Backend *b, const Octet *o, const int32_t *id)
+{
+    int32_t any = 0;
+    for (int a = 0; a < 3; a++) {
+        const int32_t *p = o->position[a], low = b->barrier_min[a], high = b->barrier_max[a];
+#pragma omp simd reduction(| : any)
+        for (int l = 0; l < CLUSTER; l++)
+            any |= (id[l] >= 0) & ((p[l] < low) | (p[l] > high));
     }
+    return any;
+}
+
+/// @return whether the particle was put farther than its step took it
+static bool hold_at_barrier(const Backend *b, Octet *o, int l, int axis, float scale)
+{
+    int32_t *p = &o->position[axis][l], low = b->barrier_min[axis], high = b->barrier_max[axis];
+    const int32_t deep = b->barrier_depth;
+    float *v = &o->velocity[axis][l];
+    bool jumped = false;
+    if (o->position[2][l] > b->barrier_top) return false;
+    if (*p<low && * p> low - deep) {
+        jumped = (float)(low - *p) > 2 - scale * *v;
+        *p = low;
+        *v = maxf(*v, 0);
+    } else if (*p > high && *p < high + deep) {
+        jumped = (float)(*p - high) > 2 + scale * *v;
+        *p = high;
+        *v = minf(*v, 0);
+    }
+    return jumped;
 }
 
 /// The last barrier at fixed planes: a jet one particle thin carries no pressure that dummies could
@@ -194,23 +251,12 @@ static bool block_barrier(const Backend *b, ParticleSet *f, int begin, int end, 
 {
     bool jumped = false;
     float scale = (float)(dt / b->grid.unit);
-    for (int a = 0; a < 3; a++) {
-        int32_t *p = f->position[a];
-        const int32_t *z = f->position[2];
-        float *v = f->field[VELOCITY_X + a];
-        int32_t low = b->barrier_min[a], high = b->barrier_max[a], deep = b->barrier_depth;
-        for (int i = begin; i < end; i++) {
-            if (f->id[i] < 0 || z[i] > b->barrier_top) continue;
-            if (p[i] < low && p[i] > low - deep) {
-                jumped = jumped || (float)(low - p[i]) > 2 - scale * v[i];
-                p[i] = low;
-                v[i] = maxf(v[i], 0);
-            } else if (p[i] > high && p[i] < high + deep) {
-                jumped = jumped || (float)(p[i] - high) > 2 + scale * v[i];
-                p[i] = high;
-                v[i] = minf(v[i], 0);
-            }
-        }
+    for (int c = begin; c < end; c += CLUSTER) {
+        Octet *o = octet_at(f, c);
+        if (!octet_beyond(b, o, f->id + c)) continue;
+        for (int l = 0; l < CLUSTER; l++)
+            for (int a = 0; a < 3 && f->id[c + l] >= 0; a++)
+                jumped = hold_at_barrier(b, o, l, a, scale) || jumped;
     }
     return jumped;
 }
@@ -260,11 +306,11 @@ static void block_move_halfway(Backend *b, double dt, int begin, int end)
     for (int a = 0; a < 3; a++) {
         for (int i = begin; i < end; i++) {
             if (m->id[i] < 0) continue;
-            int32_t from = m->position[a][i], to = m->target[a][i];
-            float v = (float)(to - from) * scale, old = m->field[VELOCITY_X + a][i];
-            m->field[WALL_ACCELERATION_X + a][i] = b->first_step ? 0.0f : (v - old) / (float)dt;
-            m->field[VELOCITY_X + a][i] = v;
-            m->position[a][i] = from + (to - from) / 2;
+            int32_t from = *position_of(m, a, i), to = m->target[a][i];
+            float v = (float)(to - from) * scale, old = *velocity_of(m, a, i);
+            m->acceleration[a][i] = b->first_step ? 0.0f : (v - old) / (float)dt;
+            *velocity_of(m, a, i) = v;
+            *position_of(m, a, i) = from + (to - from) / 2;
         }
     }
 }
@@ -296,7 +342,7 @@ static void finish_dummies(Backend *b)
     int slots = m->cluster_count * CLUSTER;
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < slots; i++)
-            if (m->id[i] >= 0) m->position[a][i] = m->target[a][i];
+            if (m->id[i] >= 0) *position_of(m, a, i) = m->target[a][i];
 }
 
 void AT_LEVEL(step_place)(Backend *b, const Advance *advance)
@@ -315,11 +361,16 @@ static bool block_finish(Backend *b, int begin, int end, float dt)
 {
     ParticleSet *f = &b->fluid;
     float factor = dt * b->sweep.constants.density_factor;
-    float *excess = f->field[EXCESS];
     const float least = b->excess_alone;
-    for (int i = begin; i < end; i++) {
-        float next = excess[i] + (f->id[i] >= 0 ? factor * f->rate[0][i] : 0.0f);
-        excess[i] = next < least ? least : next;
+    for (int c = begin; c < end; c += CLUSTER) {
+        float *excess = octet_at(f, c)->excess;
+        const float *rate = f->rate[0] + c;
+        const int32_t *id = f->id + c;
+#pragma omp simd
+        for (int l = 0; l < CLUSTER; l++) {
+            float next = excess[l] + (id[l] >= 0 ? factor * rate[l] : 0.0f);
+            excess[l] = next < least ? least : next;
+        }
     }
     block_drift(b, f, begin, end, 0.5f * dt);
     if (EFFECTS_BUILT && f->shift[0]) block_shift(b, f, begin, end, 0.5f * dt);
@@ -328,34 +379,44 @@ static bool block_finish(Backend *b, int begin, int end, float dt)
     return jumped;
 }
 
-/// Sums of a few slots, as the compiler can vectorise them: comparisons, no branches.
+/// Sums of a few slots, a lane each, as the compiler can vectorise them: comparisons, no branches.
 typedef struct BlockSums {
-    float speed2, low, high;
-    int32_t lost, sick;
+    float speed2[CLUSTER], low[CLUSTER], high[CLUSTER];
+    int32_t lost[CLUSTER], sick[CLUSTER];
 } BlockSums;
+
+static void sum_octet(const Backend *b, const Octet *o, const int32_t *id, BlockSums *s)
+{
+    const float *u = o->velocity[0], *v = o->velocity[1], *w = o->velocity[2], *excess = o->excess;
+    const int32_t *x = o->position[0], *y = o->position[1], *z = o->position[2];
+    const int32_t *low = b->inside_min, *high = b->inside_max;
+#pragma omp simd
+    for (int l = 0; l < CLUSTER; l++) {
+        float speed2 = u[l] * u[l] + v[l] * v[l] + w[l] * w[l];
+        int32_t real = id[l] >= 0;
+        int32_t sane = (speed2 < 1e12f) & (excess[l] < 10) & (excess[l] > -10);
+        int32_t inside = (x[l] >= low[0]) & (x[l] <= high[0]) & (y[l] >= low[1]) &
+                         (y[l] <= high[1]) & (z[l] >= low[2]) & (z[l] <= high[2]);
+        s->lost[l] += real & (1 - inside);
+        s->sick[l] += real & (1 - sane);
+        s->speed2[l] = s->speed2[l] > speed2 ? s->speed2[l] : speed2;
+        float bearing = tension_bearing(excess[l], b->excess_floor);
+        float least = real ? bearing : 1e30f, most = real ? bearing : -1e30f;
+        s->low[l] = s->low[l] < least ? s->low[l] : least;
+        s->high[l] = s->high[l] > most ? s->high[l] : most;
+    }
+}
 
 static BlockSums block_sums(const Backend *b, int begin, int end)
 {
-    const ParticleSet *f = &b->fluid;
-    const float *u = f->field[VELOCITY_X], *v = f->field[VELOCITY_Y], *w = f->field[VELOCITY_Z];
-    const float *excess = f->field[EXCESS];
-    const int32_t *x = f->position[0], *y = f->position[1], *z = f->position[2], *id = f->id;
-    const int32_t *low = b->inside_min, *high = b->inside_max;
-    BlockSums s = {0, 1e30f, -1e30f, 0, 0};
-    for (int i = begin; i < end; i++) {
-        float speed2 = u[i] * u[i] + v[i] * v[i] + w[i] * w[i];
-        int32_t real = id[i] >= 0;
-        int32_t sane = (speed2 < 1e12f) & (excess[i] < 10) & (excess[i] > -10);
-        int32_t inside = (x[i] >= low[0]) & (x[i] <= high[0]) & (y[i] >= low[1]) &
-                         (y[i] <= high[1]) & (z[i] >= low[2]) & (z[i] <= high[2]);
-        s.lost += real & (1 - inside);
-        s.sick += real & (1 - sane);
-        s.speed2 = s.speed2 > speed2 ? s.speed2 : speed2;
-        float bearing = tension_bearing(excess[i], b->excess_floor);
-        float least = real ? bearing : 1e30f, most = real ? bearing : -1e30f;
-        s.low = s.low < least ? s.low : least;
-        s.high = s.high > most ? s.high : most;
+    BlockSums s;
+    memset(&s, 0, sizeof s);
+    for (int l = 0; l < CLUSTER; l++) {
+        s.low[l] = 1e30f;
+        s.high[l] = -1e30f;
     }
+    for (int c = begin; c < end; c += CLUSTER)
+        sum_octet(b, octet_at(&b->fluid, c), b->fluid.id + c, &s);
     return s;
 }
 
@@ -373,13 +434,17 @@ static ParticleSums no_sums(void)
 static void add_block(ParticleSums *total, const BlockSums *block, const ParticleSet *f, int begin,
                       int end)
 {
-    total->largest_speed = maxd(total->largest_speed, block->speed2);
-    total->smallest_excess = mind(total->smallest_excess, block->low);
-    total->largest_excess = maxd(total->largest_excess, block->high);
-    total->lost_count += block->lost;
-    for (int i = begin; block->sick && i < end; i++) {
-        float u = f->field[VELOCITY_X][i], v = f->field[VELOCITY_Y][i], w = f->field[VELOCITY_Z][i];
-        bool sane = u * u + v * v + w * w < 1e12f && fabsf(f->field[EXCESS][i]) < 10;
+    int32_t sick = 0;
+    for (int l = 0; l < CLUSTER; l++) {
+        total->largest_speed = maxd(total->largest_speed, block->speed2[l]);
+        total->smallest_excess = mind(total->smallest_excess, block->low[l]);
+        total->largest_excess = maxd(total->largest_excess, block->high[l]);
+        total->lost_count += block->lost[l];
+        sick += block->sick[l];
+    }
+    for (int i = begin; sick && i < end; i++) {
+        float u = *velocity_of(f, 0, i), v = *velocity_of(f, 1, i), w = *velocity_of(f, 2, i);
+        bool sane = u * u + v * v + w * w < 1e12f && fabsf(*excess_of(f, i)) < 10;
         if (f->id[i] >= 0 && !sane) total->sick = f->id[i] > total->sick ? f->id[i] : total->sick;
     }
 }

@@ -7,31 +7,37 @@
 #include "backend/visits.h"
 #include "physics/viscous.h"
 
-/// Arrays of a set of dummies with the velocities that viscosity meets there.
-FN Arrays mirrored_of(const ParticleSet *wall)
+/// Velocities of eight particles.
+FN Offset velocities_of(const Octet *eight)
 {
-    Arrays a = arrays_of(wall);
-    a.u = wall->mirror[0];
-    a.v = wall->mirror[1];
-    a.w = wall->mirror[2];
-    return a;
+    Offset v = {lanes_load(eight->velocity[0]), lanes_load(eight->velocity[1]),
+                lanes_load(eight->velocity[2])};
+    return v;
 }
 
-/// Force of one particle and the eight at `base`.
+/// Velocities that viscosity meets in eight dummies.
+FN Offset mirrored_of(const ParticleSet *wall, size_t c)
+{
+    const size_t base = c * CLUSTER;
+    Offset v = {lanes_load(wall->mirror[0] + base), lanes_load(wall->mirror[1] + base),
+                lanes_load(wall->mirror[2] + base)};
+    return v;
+}
+
+/// Force of one particle and the eight of an octet.
+/// @param v  their velocities, as viscosity meets them
 /// @param mask  PAIR_VISCOSITY and PAIR_TURBULENCE: what acts beside pressure and viscosity
 /// @param stress  tau/rho^2 of both, of PAIR_TURBULENCE
-FN Offset force_between(const Self *self, const Arrays *other, size_t base, const Sweep *sweep,
+FN Offset force_between(const Self *self, const Octet *other, Offset v, const Sweep *sweep,
                         unsigned mask, Symmetric stress)
 {
-    const SweepConstants c = sweep->constants;
-    Offset d = offset_to(self, other, base), f;
-    Lanes r2 = offset_square(d), closeness = pair_closeness(r2, c.per_support);
-    Lanes along, slope = kernel_slope(closeness), vx = approach_of(self, other, base, d);
-    Lanes pressures = self->pressure + lanes_load(other->pressure + base);
-    if (mask & PAIR_VISCOSITY)
-        along = pair_force(closeness, r2, pressures, vx, c);
-    else
-        along = slope * pressures;
+    const SweepConstants k = sweep->constants;
+    Offset d = offset_to(self, other), f;
+    Lanes r2 = offset_square(d), closeness = pair_closeness(lane_sqrt(r2), k.per_support);
+    Lanes slope = kernel_slope(closeness), drag = lanes_all(0);
+    Lanes vx = (self->u - v.x) * d.x + (self->v - v.y) * d.y + (self->w - v.z) * d.z;
+    if (mask & PAIR_VISCOSITY) drag = pair_drag(r2, vx, k);
+    Lanes along = pair_force(closeness, pressures_of(self, other), drag);
     along += viscous_push(closeness, r2, vx, sweep->viscous);
     f.x = along * d.x;
     f.y = along * d.y;
@@ -51,37 +57,32 @@ FN void add_force(Lanes sum[3], Offset f)
     sum[2] += f.z;
 }
 
-FN void react_force(const Arrays *other, size_t base, Offset f)
+/// tau/rho^2 of a particle and of the eight of cluster c.
+FN Symmetric stress_between(const Terms *terms, Symmetric own, size_t c, unsigned mask)
 {
-    lanes_store(other->rate[0] + base, lanes_load(other->rate[0] + base) - f.x);
-    lanes_store(other->rate[1] + base, lanes_load(other->rate[1] + base) - f.y);
-    lanes_store(other->rate[2] + base, lanes_load(other->rate[2] + base) - f.z);
-}
-
-/// tau/rho^2 of a particle and of the eight at `base`.
-FN Symmetric stress_between(const Terms *terms, Symmetric own, size_t base, unsigned mask)
-{
-    return mask & PAIR_TURBULENCE ? terms_sum(own, terms_load(terms, base)) : own;
+    return mask & PAIR_TURBULENCE ? terms_sum(own, terms_load(terms, c * CLUSTER)) : own;
 }
 
 /// Push of dummies: their pressure and, where they hold the water, viscosity.
 FN void force_of_walls(const Sweep *sweep, const Self *self, int i, int l, unsigned mask,
                        Lanes sum[3])
 {
-    const SweepConstants c = sweep->constants;
+    const SweepConstants k = sweep->constants;
     const bool holds = (mask & PAIR_NO_SLIP) != 0;
     for (int set = 0; set < 2; set++) {
         if (!has_walls(sweep, set, i)) continue;
-        const Arrays walls = holds ? mirrored_of(sweep->walls[set]) : arrays_of(sweep->walls[set]);
+        const ParticleSet *wall = sweep->walls[set];
         Visits visits = visits_of(sweep->fluid_wall[set], i, l);
-        for (size_t base; visits_next(&visits, &base);) {
+        for (size_t c; visits_next(&visits, &c);) {
+            const Octet *eight = &wall->octet[c];
             if (holds) {
-                add_force(sum, force_between(self, &walls, base, sweep, 0, no_terms()));
+                add_force(sum,
+                          force_between(self, eight, mirrored_of(wall, c), sweep, 0, no_terms()));
                 continue;
             }
-            Offset d = offset_to(self, &walls, base);
-            Lanes push = kernel_slope(pair_closeness(offset_square(d), c.per_support)) *
-                         (self->pressure + lanes_load(walls.pressure + base));
+            Offset d = offset_to(self, eight);
+            Lanes closeness = pair_closeness(lane_sqrt(offset_square(d)), k.per_support);
+            Lanes push = pair_force(closeness, pressures_of(self, eight), lanes_all(0));
             Offset f = {push * d.x, push * d.y, push * d.z};
             add_force(sum, f);
         }
@@ -96,15 +97,16 @@ FN void force_of_particle(const Sweep *sweep, const Arrays *fluid, const Terms *
     if (mask & PAIR_TURBULENCE) own = terms_own(terms, i * CLUSTER + l);
     Lanes sum[3] = {lanes_all(0), lanes_all(0), lanes_all(0)};
     Visits visits = visits_of(sweep->fluid_fluid, i, l);
-    for (size_t base; visits_next(&visits, &base);) {
-        Symmetric stress = stress_between(terms, own, base, mask);
-        Offset f = force_between(&self, fluid, base, sweep, mask, stress);
+    for (size_t c; visits_next(&visits, &c);) {
+        const Octet *eight = &fluid->octet[c];
+        Symmetric stress = stress_between(terms, own, c, mask);
+        Offset f = force_between(&self, eight, velocities_of(eight), sweep, mask, stress);
         add_force(sum, f);
-        react_force(fluid, base, f);
+        react(fluid, c, lanes_all(1), f);
     }
-    size_t same = (size_t)i * CLUSTER;
-    Symmetric stress = stress_between(terms, own, same, mask);
-    add_force(sum, force_between(&self, fluid, same, sweep, mask, stress));
+    const Octet *same = &fluid->octet[i];
+    Symmetric stress = stress_between(terms, own, (size_t)i, mask);
+    add_force(sum, force_between(&self, same, velocities_of(same), sweep, mask, stress));
     force_of_walls(sweep, &self, i, l, mask, sum);
     for (int a = 0; a < 3; a++)
         fluid->rate[a][i * CLUSTER + l] += lanes_total(sum[a]);
@@ -143,15 +145,21 @@ const SweepFunction AT_KERNEL(viscous_forces)[VISCOUS_VARIANTS] = {
 void AT_KERNEL(viscous_loads)(const Sweep *sweep, int begin, int end)
 {
     ParticleSet *wall = sweep->walls[1];
-    const Arrays walls = mirrored_of(wall), fluid = arrays_of(sweep->fluid);
+    const Arrays walls = arrays_of(wall), fluid = arrays_of(sweep->fluid);
     for (int slot = begin * CLUSTER; slot < end * CLUSTER; slot++) {
         int i = slot / CLUSTER, id = wall->id[slot];
         Lanes sum[3] = {lanes_all(0), lanes_all(0), lanes_all(0)};
         if (id >= 0 && sweep->moving_owner[id] >= 0 && sweep->wall_fluid[1]->count[i]) {
-            const Self self = self_of(&walls, slot);
+            Self self = self_of(&walls, slot);
+            self.u = lanes_all(wall->mirror[0][slot]);
+            self.v = lanes_all(wall->mirror[1][slot]);
+            self.w = lanes_all(wall->mirror[2][slot]);
             Visits visits = visits_of(sweep->wall_fluid[1], i, slot % CLUSTER);
-            for (size_t base; visits_next(&visits, &base);)
-                add_force(sum, force_between(&self, &fluid, base, sweep, 0, no_terms()));
+            for (size_t c; visits_next(&visits, &c);) {
+                const Octet *eight = &fluid.octet[c];
+                add_force(sum,
+                          force_between(&self, eight, velocities_of(eight), sweep, 0, no_terms()));
+            }
         }
         for (int a = 0; a < 3; a++)
             wall->rate[a][slot] = lanes_total(sum[a]);
@@ -168,18 +176,18 @@ FN void mirror_velocity(const Sweep *sweep, int set, int slot)
     const Self self = self_of(&walls, slot);
     Lanes weights = lanes_all(0), sum[3] = {weights, weights, weights};
     Visits visits = visits_of(sweep->wall_fluid[set], slot / CLUSTER, slot % CLUSTER);
-    for (size_t base; visits_next(&visits, &base);) {
-        Lanes r2 = offset_square(offset_to(&self, &fluid, base));
-        Lanes closeness = pair_closeness(r2, sweep->constants.per_support);
-        Lanes weight = wendland_value(closeness);
+    for (size_t c; visits_next(&visits, &c);) {
+        const Octet *eight = &fluid.octet[c];
+        Lanes root = lane_sqrt(offset_square(offset_to(&self, eight)));
+        Lanes weight = wendland_value(pair_closeness(root, sweep->constants.per_support));
         weights += weight;
-        sum[0] += weight * lanes_load(fluid.u + base);
-        sum[1] += weight * lanes_load(fluid.v + base);
-        sum[2] += weight * lanes_load(fluid.w + base);
+        sum[0] += weight * lanes_load(eight->velocity[0]);
+        sum[1] += weight * lanes_load(eight->velocity[1]);
+        sum[2] += weight * lanes_load(eight->velocity[2]);
     }
     float weight = lanes_total(weights);
     for (int a = 0; a < 3; a++) {
-        float own = wall->field[VELOCITY_X + a][slot];
+        float own = *velocity_of(wall, a, slot);
         wall->mirror[a][slot] = weight < 1e-6f ? own : 2 * own - lanes_total(sum[a]) / weight;
     }
 }
@@ -197,24 +205,15 @@ void AT_KERNEL(viscous_mirror)(const Sweep *sweep, int set, int begin, int end)
     }
 }
 
-/// v_ik of one particle and eight others [m/s].
-FN Offset parting_of(const Self *self, const Arrays *other, size_t base)
-{
-    Offset v;
-    v.x = self->u - lanes_load(other->u + base);
-    v.y = self->v - lanes_load(other->v + base);
-    v.z = self->w - lanes_load(other->w + base);
-    return v;
-}
-
-/// Rate of strain: one particle and the eight at `base`, which have the same share in each other's.
-FN Symmetric strain_between(const Self *self, const Arrays *other, size_t base, float per_support)
+/// Rate of strain: one particle and eight, which have the same share in each other's.
+FN Symmetric strain_between(const Self *self, const Octet *eight, float per_support)
 {
     // lengths over the support, as in cpu_gradient.c
     Lanes scale = lanes_all(per_support);
-    Offset d = offset_to(self, other, base), v = parting_of(self, other, base);
-    Lanes slope = kernel_slope(pair_closeness(offset_square(d), per_support));
-    return strain_moment(slope, v.x, v.y, v.z, scale * d.x, scale * d.y, scale * d.z);
+    Offset d = offset_to(self, eight), v = velocities_of(eight);
+    Lanes slope = kernel_slope(pair_closeness(lane_sqrt(offset_square(d)), per_support));
+    return strain_moment(slope, self->u - v.x, self->v - v.y, self->w - v.z, scale * d.x,
+                         scale * d.y, scale * d.z);
 }
 
 void AT_KERNEL(viscous_strain)(const Sweep *sweep, int begin, int end)
@@ -225,11 +224,11 @@ void AT_KERNEL(viscous_strain)(const Sweep *sweep, int begin, int end)
     for (int slot = begin * CLUSTER; slot < end * CLUSTER; slot++) {
         if (sweep->fluid->id[slot] < 0) continue;
         const Self self = self_of(&fluid, slot);
-        size_t same = (size_t)slot / CLUSTER * CLUSTER;
-        Symmetric sum = strain_between(&self, &fluid, same, per_support);
+        Symmetric sum = strain_between(&self, &fluid.octet[slot / CLUSTER], per_support);
         Visits visits = visits_of(sweep->fluid_fluid, slot / CLUSTER, slot % CLUSTER);
-        for (size_t base; visits_next(&visits, &base);) {
-            Symmetric s = strain_between(&self, &fluid, base, per_support);
+        for (size_t c; visits_next(&visits, &c);) {
+            const size_t base = c * CLUSTER;
+            Symmetric s = strain_between(&self, &fluid.octet[c], per_support);
             sum = terms_sum(sum, s);
             terms_store(&terms, base, terms_sum(terms_load(&terms, base), s));
         }

@@ -79,7 +79,7 @@ static MovingPower moving_power(const Backend *b)
         if (m->id[i] < 0) continue;
         double sum = 0; // what the water does to the dummy
         for (int a = 0; a < 3; a++)
-            sum += (double)m->rate[a][i] * m->field[VELOCITY_X + a][i];
+            sum += (double)m->rate[a][i] * *velocity_of(m, a, i);
         int owner = b->moving_owner[m->id[i]];
         *(owner == OWNER_RING     ? &power.ring
           : owner == OWNER_PISTON ? &power.piston
@@ -102,7 +102,9 @@ void works_before_kick(Backend *b)
 {
     keep_rates(b, FULL, 3);
     for (int a = 0; a < 3; a++)
-        memcpy(b->works.velocity[a], b->fluid.field[VELOCITY_X + a], slot_bytes(b));
+        for (int c = 0; c < b->fluid.cluster_count; c++)
+            memcpy(b->works.velocity[a] + c * CLUSTER, b->fluid.octet[c].velocity[a],
+                   sizeof b->fluid.octet[c].velocity[a]);
 }
 
 /// Velocity before and after the kick, relaxation left out.
@@ -127,7 +129,7 @@ void works_after_kick(Backend *b, const Advance *advance)
         double before[3], after[3];
         kick_of(b, i, dt, before, after);
         for (int a = 0; a < 3; a++) {
-            double middle = 0.5 * (before[a] + after[a]), now = b->fluid.field[VELOCITY_X + a][i];
+            double middle = 0.5 * (before[a] + after[a]), now = *velocity_of(&b->fluid, a, i);
             inner += w->rate[INNER][a][i] * middle;
             plain += w->rate[PLAIN][a][i] * middle;
             full += w->rate[FULL][a][i] * middle;
@@ -136,8 +138,8 @@ void works_after_kick(Backend *b, const Advance *advance)
             kicked += after[a] * after[a] - before[a] * before[a];
             w->velocity[a][i] = (float)now;
         }
-        w->height[i] = b->fluid.position[2][i];
-        w->excess[i] = b->fluid.field[EXCESS][i];
+        w->height[i] = *position_of(&b->fluid, 2, i);
+        w->excess[i] = *excess_of(&b->fluid, i);
     }
     double mass = b->setup.particle_mass,
            scale = mass * dt * b->sweep.constants.acceleration_factor;
@@ -177,7 +179,7 @@ void works_after_step(Backend *b, double dt)
     for (int i = 0; i < f->cluster_count * CLUSTER; i++) {
         if (f->id[i] < 0) continue;
         // de/ds = p rho0/rho^2 halfway between the pressures that push before and after the step
-        double s0 = w->excess[i], s1 = f->field[EXCESS][i], middle = 0.5 * (s0 + s1);
+        double s0 = w->excess[i], s1 = *excess_of(f, i), middle = 0.5 * (s0 + s1);
         middle = middle > floor ? middle : floor;
         double slope =
             tait_pressure((float)middle, (float)tait) / rho0 / ((1 + middle) * (1 + middle));
@@ -187,9 +189,10 @@ void works_after_step(Backend *b, double dt)
         clipped += tait_energy_torn(s1, floor, tait, rho0) -
                    tait_energy_torn(s0, floor, tait, rho0) - slope * factor * w->rate[FULL][0][i];
         for (int a = 0; a < 3; a++)
-            speed2 += (double)f->field[VELOCITY_X + a][i] * f->field[VELOCITY_X + a][i] -
+            speed2 += (double)*velocity_of(f, a, i) * *velocity_of(f, a, i) -
                       (double)w->velocity[a][i] * w->velocity[a][i];
-        lift += unit * ((double)f->position[2][i] - w->height[i]) - 0.5 * dt * w->velocity[2][i];
+        lift +=
+            unit * ((double)*position_of(f, 2, i) - w->height[i]) - 0.5 * dt * w->velocity[2][i];
         if (f->shift[2]) shifted += dt * f->shift[2][i];
     }
     w->sums.pressure += mass * factor * inner;

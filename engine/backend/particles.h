@@ -1,4 +1,5 @@
-/// Particles of the CPU backend: structure of arrays in padded clusters of eight.
+/// Particles of the CPU backend, in padded clusters of eight. What every sweep reads lies together,
+/// cluster by cluster (Octet); the rest is an array each, by slot.
 ///
 /// Positions are 32-bit fixed-point numbers in `Grid.unit`; differences are exact, so accuracy does
 /// not depend on the distance from the origin (float positions lose it in a long tank,
@@ -14,7 +15,7 @@
 #include "base/built.h"
 #include "physics/pair.h"
 
-enum { CLUSTER = 8, FIELDS_MAX = 6, ROW_REACH = 2, SLAB_ROWS = 2 };
+enum { CLUSTER = 8, ROW_REACH = 2, SLAB_ROWS = 2 };
 enum { BLOCKS_MAX = 4 };
 enum { ENTRIES_MAX = 2048 }; ///< neighbours a cluster may have; only collapsed water has more
 #define PADDING (-(1 << 30)) ///< coordinate of an empty slot [unit]; real ones are in [0, 2^30)
@@ -41,27 +42,32 @@ typedef struct Boxes {
     int32_t *min[3], *max[3]; ///< [cluster capacity]
 } Boxes;
 
-/// Names of the float fields that travel with a particle when it is sorted.
-enum { VELOCITY_X, VELOCITY_Y, VELOCITY_Z, EXCESS, FLUID_FIELDS };
-enum { WALL_ACCELERATION_X = 3, WALL_ACCELERATION_Y, WALL_ACCELERATION_Z, MOVING_FIELDS };
+/// A cluster's particles as the sweeps read them: four cache lines at one address. In arrays of
+/// their own they were ten lines at ten addresses, more than there are registers for.
+typedef struct Octet {
+    int32_t position[3][CLUSTER]; ///< [unit]; PADDING where nobody is
+    float velocity[3][CLUSTER];   ///< [m/s]
+    float excess[CLUSTER];        ///< fluid: rho/rho0 - 1
+    float pressure[CLUSTER];      ///< P = p/rho^2 [Pa m^6/kg^2]; 0 in padding
+} Octet;
+enum { OCTET_DUMMY = 6, OCTET_FLUID = 7 }; ///< arrays of it that are sorted and saved
 
 /// One set: fluid, fixed dummies, or moving dummies. Slots in use: cluster_count * CLUSTER.
 typedef struct ParticleSet {
-    int count;                ///< particles
-    int slot_capacity;        ///< multiple of CLUSTER
-    int cluster_count;        ///< in use
-    int field_count;          ///< of `field` that are sorted
-    int32_t *position[3];     ///< [slot_capacity][unit]
-    float *field[FIELDS_MAX]; ///< velocity [m/s]; fluid: rho/rho0 - 1; moving: acceleration [m/s^2]
-    int32_t *id;              ///< index at creation, -1 in padding
-    float *pressure;          ///< P = p/rho^2 [Pa m^6/kg^2]; 0 in padding
-    float *dynamic;           ///< fluid: D = diffusion * (density excess less its hydrostatic part)
-    float *rate[3];           ///< sums of the sweeps; fixed: none
-    float *correction[6];     ///< fluid, with PAIR_GRADIENT: B of physics/gradient.h
-    float *stress[6];         ///< fluid, with PAIR_TURBULENCE: tau/rho^2 of physics/viscous.h
-    float *shift[4];          ///< fluid, with PAIR_SHIFTING: u of physics/shift.h [m/s], fullness
-    float *mirror[3];         ///< dummies, with PAIR_NO_SLIP: velocity that viscosity meets [m/s]
-    int32_t *target[3];       ///< moving: places at the end of the step [unit]
+    int count;              ///< particles
+    int slot_capacity;      ///< multiple of CLUSTER
+    int cluster_count;      ///< in use
+    int kept;               ///< OCTET_…
+    Octet *octet;           ///< [slot_capacity / CLUSTER]
+    int32_t *id;            ///< index at creation, -1 in padding
+    float *dynamic;         ///< fluid: D = diffusion * (density excess less its hydrostatic part)
+    float *rate[3];         ///< sums of the sweeps; fixed: none
+    float *acceleration[3]; ///< moving, sorted: [m/s^2]
+    float *correction[6];   ///< fluid, with PAIR_GRADIENT: B of physics/gradient.h
+    float *stress[6];       ///< fluid, with PAIR_TURBULENCE: tau/rho^2 of physics/viscous.h
+    float *shift[4];        ///< fluid, with PAIR_SHIFTING: u of physics/shift.h [m/s], fullness
+    float *mirror[3];       ///< dummies, with PAIR_NO_SLIP: velocity that viscosity meets [m/s]
+    int32_t *target[3];     ///< moving: places at the end of the step [unit]
     Boxes boxes;
     int *row_begin; ///< [rows + 1] first cluster of each row
 } ParticleSet;
@@ -92,8 +98,8 @@ typedef struct ClusterList {
 Grid grid_create(const double min[3], const double max[3], int dimensions, double support,
                  double skin, double spacing);
 
-/// Arrays of a set, all but its rates and targets.
-bool set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
+/// Arrays of a set, all but its rates, accelerations and targets. @param kept  OCTET_…
+bool set_create(ParticleSet *set, const Grid *grid, int count, int kept, Arena *arena,
                 Error *error);
 
 bool scratch_create(SortScratch *scratch, const Grid *grid, int slots, int threads, Arena *arena,
@@ -116,6 +122,31 @@ static inline int32_t to_coordinate(const Grid *grid, int axis, double metres)
 static inline double to_metres(const Grid *grid, int axis, int32_t coordinate)
 {
     return grid->origin[axis] + grid->unit * coordinate;
+}
+
+// One particle's, by slot; for loops that are not worth going by clusters.
+static inline int32_t *position_of(const ParticleSet *set, int axis, int slot)
+{
+    return &set->octet[(unsigned)slot / CLUSTER].position[axis][(unsigned)slot % CLUSTER];
+}
+static inline float *velocity_of(const ParticleSet *set, int axis, int slot)
+{
+    return &set->octet[(unsigned)slot / CLUSTER].velocity[axis][(unsigned)slot % CLUSTER];
+}
+static inline float *excess_of(const ParticleSet *set, int slot)
+{
+    return &set->octet[(unsigned)slot / CLUSTER].excess[(unsigned)slot % CLUSTER];
+}
+static inline float *pressure_of(const ParticleSet *set, int slot)
+{
+    return &set->octet[(unsigned)slot / CLUSTER].pressure[(unsigned)slot % CLUSTER];
+}
+/// Where a particle is [m].
+static inline Vec3 place_of(const Grid *grid, const ParticleSet *set, int slot)
+{
+    return vec3(to_metres(grid, 0, *position_of(set, 0, slot)),
+                to_metres(grid, 1, *position_of(set, 1, slot)),
+                to_metres(grid, 2, *position_of(set, 2, slot)));
 }
 
 #endif

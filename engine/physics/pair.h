@@ -44,18 +44,23 @@ FN SweepConstants sweep_constants(Kernel kernel, double h, int dimensions, doubl
     return c;
 }
 
-/// max(0, 1 - r/2h) from a squared distance in units.
-FN LANE pair_closeness(LANE r2, float per_support)
+/// max(0, 1 - r/2h) from a distance in units.
+FN LANE pair_closeness(LANE r, float per_support)
 {
-    return lane_above_zero(1.0f - per_support * lane_sqrt(r2));
+    return lane_above_zero(1.0f - per_support * r);
+}
+
+/// Pi_ik, below zero for particles that approach each other. @param vx  v_ik . x_ik
+FN LANE pair_drag(LANE r2, LANE vx, const SweepConstants c)
+{
+    return c.viscosity * lane_below_zero(vx) / (r2 + c.eta_squared);
 }
 
 /// Factor of x_ik in i's acceleration (and of -x_ik in k's).
-/// @param pressures  P_i + P_k   @param vx  v_ik . x_ik
-FN LANE pair_force(LANE closeness, LANE r2, LANE pressures, LANE vx, const SweepConstants c)
+/// @param pressures  P_i + P_k   @param drag  pair_drag, or 0
+FN LANE pair_force(LANE closeness, LANE pressures, LANE drag)
 {
-    LANE viscous = c.viscosity * lane_below_zero(vx) / (r2 + c.eta_squared);
-    return kernel_slope(closeness) * (pressures - viscous);
+    return kernel_slope(closeness) * (pressures - drag);
 }
 
 #endif

@@ -60,15 +60,15 @@ void *__wrap_arena_take(Arena *arena, size_t count, size_t size, const char *wha
     return __real_arena_take(arena, count, size, what, e);
 }
 
-bool __real_set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
+bool __real_set_create(ParticleSet *set, const Grid *grid, int count, int kept, Arena *arena,
                        Error *e);
-bool __wrap_set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
+bool __wrap_set_create(ParticleSet *set, const Grid *grid, int count, int kept, Arena *arena,
                        Error *e);
-bool __wrap_set_create(ParticleSet *set, const Grid *grid, int count, int field_count, Arena *arena,
+bool __wrap_set_create(ParticleSet *set, const Grid *grid, int count, int kept, Arena *arena,
                        Error *e)
 {
     sets++;
-    return __real_set_create(set, grid, count, field_count, arena, e);
+    return __real_set_create(set, grid, count, kept, arena, e);
 }
 
 bool __real_list_create(ClusterList *list, const ParticleSet *a, Arena *arena, Error *e);

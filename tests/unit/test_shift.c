@@ -139,10 +139,10 @@ TEST(a_step_goes_by_velocity_and_shift)
     backend_cpu()->advance(b, &advance, &sums);
     for (int slot = 0; slot < b->fluid.cluster_count * CLUSTER; slot++) {
         if (b->fluid.id[slot] < 0) continue;
-        double x = to_metres(&b->grid, 0, b->fluid.position[0][slot]);
+        double x = to_metres(&b->grid, 0, *position_of(&b->fluid, 0, slot));
         double path = x - place[b->fluid.id[slot]].x;
         double u = (double)b->fluid.shift[0][slot];
-        double miss = path / advance.dt - (double)b->fluid.field[VELOCITY_X][slot] - u;
+        double miss = path / advance.dt - (double)*velocity_of(&b->fluid, 0, slot) - u;
         off += miss * miss;
         all += u * u;
     }
@@ -166,7 +166,7 @@ TEST(lists_last_by_how_shifted_particles_part)
         for (int i = b->fluid.row_begin[row] * CLUSTER; i < b->fluid.row_begin[row + 1] * CLUSTER;
              i++)
             for (int a = 0; a < 3 && b->fluid.id[i] >= 0; a++) {
-                float v = b->fluid.field[VELOCITY_X + a][i], path = v + b->fluid.shift[a][i];
+                float v = *velocity_of(&b->fluid, a, i), path = v + b->fluid.shift[a][i];
                 CHECK(span->min[a] <= path && path <= span->max[a]);
                 beyond += path == span->min[a] || path == span->max[a];
             }
