@@ -68,7 +68,8 @@ FN void visit_force(const Self *self, const Arrays *other, size_t c, const Sweep
     Offset d = offset_to(self, &other->octet[c]);
     Lanes r2 = offset_square(d);
     Lanes slope = kernel_slope(pair_closeness(lane_sqrt(r2), k.per_support)), drag = lanes_all(0);
-    if (viscous) drag = -slope * pair_drag(r2, approach_of(self, &other->octet[c], d), k);
+    if (viscous)
+        drag = -slope * k.viscosity * pair_approach(r2, approach_of(self, &other->octet[c], d), k);
     Lanes x = slope * (weights.xx * d.x + weights.xy * d.y + weights.xz * d.z) + drag * d.x;
     Lanes y = slope * (weights.xy * d.x + weights.yy * d.y + weights.yz * d.z) + drag * d.y;
     Lanes z = slope * (weights.xz * d.x + weights.yz * d.y + weights.zz * d.z) + drag * d.z;

@@ -11,7 +11,7 @@
 typedef struct Meeting {
     size_t c;
     Offset d;
-    Lanes root, pressures, drag;
+    Lanes root, pressures, approach;
 } Meeting;
 
 FN Meeting meet(const Self *self, const Arrays *other, size_t c, const SweepConstants k,
@@ -24,8 +24,8 @@ FN Meeting meet(const Self *self, const Arrays *other, size_t c, const SweepCons
     Lanes r2 = offset_square(m.d);
     m.root = lane_sqrt(r2);
     m.pressures = pressures_of(self, eight);
-    m.drag = lanes_all(0);
-    if (viscous) m.drag = pair_drag(r2, approach_of(self, eight, m.d), k);
+    m.approach = lanes_all(0);
+    if (viscous) m.approach = pair_approach(r2, approach_of(self, eight, m.d), k);
     return m;
 }
 
@@ -33,7 +33,8 @@ FN Meeting meet(const Self *self, const Arrays *other, size_t c, const SweepCons
 FN void part(const Meeting *m, const Arrays *other, const SweepConstants k, bool reacts,
              Lanes sum[3])
 {
-    Lanes force = pair_force(pair_closeness(m->root, k.per_support), m->pressures, m->drag);
+    Lanes pressures = m->pressures - k.viscosity * m->approach;
+    Lanes force = pair_force(pair_closeness(m->root, k.per_support), pressures);
     sum[0] += force * m->d.x;
     sum[1] += force * m->d.y;
     sum[2] += force * m->d.z;

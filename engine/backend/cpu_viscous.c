@@ -34,10 +34,10 @@ FN Offset force_between(const Self *self, const Octet *other, Offset v, const Sw
     const SweepConstants k = sweep->constants;
     Offset d = offset_to(self, other), f;
     Lanes r2 = offset_square(d), closeness = pair_closeness(lane_sqrt(r2), k.per_support);
-    Lanes slope = kernel_slope(closeness), drag = lanes_all(0);
+    Lanes slope = kernel_slope(closeness), pressures = pressures_of(self, other);
     Lanes vx = (self->u - v.x) * d.x + (self->v - v.y) * d.y + (self->w - v.z) * d.z;
-    if (mask & PAIR_VISCOSITY) drag = pair_drag(r2, vx, k);
-    Lanes along = pair_force(closeness, pressures_of(self, other), drag);
+    if (mask & PAIR_VISCOSITY) pressures -= k.viscosity * pair_approach(r2, vx, k);
+    Lanes along = pair_force(closeness, pressures);
     along += viscous_push(closeness, r2, vx, sweep->viscous);
     f.x = along * d.x;
     f.y = along * d.y;
@@ -82,7 +82,7 @@ FN void force_of_walls(const Sweep *sweep, const Self *self, int i, int l, unsig
             }
             Offset d = offset_to(self, eight);
             Lanes closeness = pair_closeness(lane_sqrt(offset_square(d)), k.per_support);
-            Lanes push = pair_force(closeness, pressures_of(self, eight), lanes_all(0));
+            Lanes push = pair_force(closeness, pressures_of(self, eight));
             Offset f = {push * d.x, push * d.y, push * d.z};
             add_force(sum, f);
         }

@@ -50,17 +50,14 @@ FN LANE pair_closeness(LANE r, float per_support)
     return lane_above_zero(1.0f - per_support * r);
 }
 
-/// Pi_ik, below zero for particles that approach each other. @param vx  v_ik . x_ik
-FN LANE pair_drag(LANE r2, LANE vx, const SweepConstants c)
+/// Pi_ik over -viscosity: zero for particles that part. @param vx  v_ik . x_ik
+FN LANE pair_approach(LANE r2, LANE vx, const SweepConstants c)
 {
-    return c.viscosity * lane_below_zero(vx) / (r2 + c.eta_squared);
+    return lane_below_zero(vx) / (r2 + c.eta_squared);
 }
 
 /// Factor of x_ik in i's acceleration (and of -x_ik in k's).
-/// @param pressures  P_i + P_k   @param drag  pair_drag, or 0
-FN LANE pair_force(LANE closeness, LANE pressures, LANE drag)
-{
-    return kernel_slope(closeness) * (pressures - drag);
-}
+/// @param pressures  P_i + P_k, and Pi_ik
+FN LANE pair_force(LANE closeness, LANE pressures) { return kernel_slope(closeness) * pressures; }
 
 #endif
