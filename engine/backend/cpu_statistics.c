@@ -13,19 +13,20 @@ static const double DISTANCES_MAX = 1e9;
 static int count_near(const ParticleSet *set, const ParticleSet *fluid, int self,
                       float support_squared)
 {
-    int near = 0;
+    int32_t near = 0, lane[CLUSTER] = {0};
     int32_t x = *position_of(fluid, 0, self), y = *position_of(fluid, 1, self);
     int32_t z = *position_of(fluid, 2, self);
     for (int c = 0; c < set->cluster_count; c++) {
         const Octet *o = &set->octet[c];
-#pragma omp simd reduction(+ : near)
+        const int32_t *id = set->id + c * CLUSTER;
         for (int l = 0; l < CLUSTER; l++) {
             float dx = (float)(x - o->position[0][l]), dy = (float)(y - o->position[1][l]);
             float dz = (float)(z - o->position[2][l]);
-            near +=
-                (dx * dx + dy * dy + dz * dz < support_squared) & (set->id[c * CLUSTER + l] >= 0);
+            lane[l] += (dx * dx + dy * dy + dz * dz < support_squared) & (id[l] >= 0);
         }
     }
+    for (int l = 0; l < CLUSTER; l++)
+        near += lane[l];
     return near;
 }
 
