@@ -6,7 +6,8 @@
 /// and F_1 … F_N; as many equations are the two conditions at the points, the mean level, the
 /// height, and the period (c = U + c_E, or U + q/d where the mean transport is given) or the
 /// length. Lengths are counted in 1/k0 of Airy's wave and g = 1. The wave is raised in steps, each
-/// started from the two before.
+/// started from the two before. Large steps may end in another flow that fulfils the equations, so
+/// two numbers of steps have to agree.
 #include "stream_wave.h"
 
 #include <math.h>
@@ -167,6 +168,16 @@ static void start(System *s, double airy)
     s->value[at_flow(s, 1)] = a * k * U / t;
 }
 
+/// Newton's method also finds flows whose crest is a dent between two peaks. A wave falls from its
+/// crest to its trough.
+static bool falls(const System *s)
+{
+    const double *eta = s->value + AT_ETA;
+    for (int m = 0; m < s->n; m++)
+        if (eta[m + 1] > eta[m] + 1e-4 * s->height) return false;
+    return s->value[AT_U] > 0 && s->value[AT_K] > 0;
+}
+
 /// The wave in steps of its height, the next guessed from the last two.
 static bool raise(System *s, double height, double airy, int steps)
 {
@@ -183,9 +194,9 @@ static bool raise(System *s, double height, double airy, int steps)
             memcpy(s->value, guess, sizeof guess);
         }
         if (i == 1) memcpy(before, s->value, sizeof before);
-        if (!newton(s)) return false;
+        if (!newton(s) || !falls(s)) return false;
     }
-    return s->value[AT_U] > 0 && s->value[AT_K] > 0;
+    return true;
 }
 
 /// Harmonics that resolve the crest: long waves in shallow water and steep ones need more.
@@ -221,7 +232,7 @@ static void unpack(const System *s, double k0, double gravity, SteadyWave *wave)
 
 bool stream_wave_solve(const SteadyWaveAsk *ask, SteadyWave *wave)
 {
-    static const int STEPS[] = {1, 4, 12, 40};
+    static const int STEPS[] = {1, 4, 12, 40, 120};
     System s;
     double k0 = ask->period > 0 ? wave_theory_number(2 * PI / ask->period, ask->depth, ask->gravity)
                                 : 2 * PI / ask->length;
@@ -233,8 +244,13 @@ bool stream_wave_solve(const SteadyWaveAsk *ask, SteadyWave *wave)
     s.current = ask->current / sqrt(ask->gravity / k0);
     s.eulerian = ask->eulerian;
     memset(wave, 0, sizeof *wave);
-    for (int i = 0; i < 4; i++) {
+    double number = 0, speed = 0; // as the last number of steps had them
+    for (size_t i = 0; i < sizeof STEPS / sizeof *STEPS; i++) {
         if (!raise(&s, ask->height * k0, 1, STEPS[i])) continue;
+        bool same = fabs(s.value[AT_K] - number) < 1e-8 && fabs(s.value[AT_U] - speed) < 1e-8;
+        number = s.value[AT_K];
+        speed = s.value[AT_U];
+        if (!same) continue;
         unpack(&s, k0, ask->gravity, wave);
         return true;
     }

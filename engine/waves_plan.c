@@ -67,6 +67,15 @@ static void warn(char *text, int size, int *count, const char *warning)
     (*count)++;
 }
 
+/// Of regular waves; auto where there are none.
+static WaveTheory theory_used(const Scene *scene)
+{
+    if (scene->waves.kind != WAVES_REGULAR || !(scene->waves.initial.height > 0))
+        return WAVE_THEORY_AUTO;
+    WaveState waves = waves_create(scene);
+    return waves.layers[waves.layer_count - 1].train.theory;
+}
+
 int waves_warnings(const Scene *scene, char *text, int size)
 {
     int count = 0;
@@ -92,11 +101,15 @@ int waves_warnings(const Scene *scene, char *text, int size)
                  "H/dp = %.2g: under 5 spacings to a wave height waves lose height", resolution);
         warn(text, size, &count, line);
     }
+    WaveTheory theory = theory_used(scene), asked = scene->waves.theory;
+    if (theory == WAVE_THEORY_STOKES2 && asked != theory)
+        warn(text, size, &count,
+             "no wave by the asked theory is so high (or its crest is too sharp to be followed): "
+             "Stokes' to second order instead");
     // Ursell's number: beyond 26 Stokes' waves grow a false crest in their trough.
     double ursell = sea->height * length * length / (depth * depth * depth);
-    bool stokes = scene->waves.theory == WAVE_THEORY_STOKES2 ||
-                  scene->waves.theory == WAVE_THEORY_STOKES5 || sea->height > breaking;
-    if (ursell > 26 && stokes && scene->waves.kind == WAVES_REGULAR) {
+    bool stokes = theory == WAVE_THEORY_STOKES2 || theory == WAVE_THEORY_STOKES5;
+    if (ursell > 26 && stokes) {
         snprintf(line, sizeof line,
                  "water is too shallow for Stokes' waves (Ursell number H L^2/d^3 = %.3g > 26)",
                  ursell);

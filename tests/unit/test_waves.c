@@ -436,8 +436,9 @@ TEST(warnings_name_breaking_resolution_shallow_water_and_a_small_basin)
     CHECK(waves_warnings(scene, text, sizeof text) == 1);
     CHECK_CONTAINS(text, "near breaking");
     scene->waves.initial.height = 0.24;
-    CHECK(waves_warnings(scene, text, sizeof text) == 1);
+    CHECK(waves_warnings(scene, text, sizeof text) == 2);
     CHECK_CONTAINS(text, "breaks: 108 % of the breaking height 0.142 L tanh(kd) = 0.221 m");
+    CHECK_CONTAINS(text, "Stokes' to second order instead");
     scene->waves.initial.height = 0.19;
     scene->fluid.spacing = 0.05;
     scene->domain.max.x = 0.5;
