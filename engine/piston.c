@@ -70,6 +70,31 @@ double piston_stroke_ratio(double kd)
     return (sinh(2 * kd) + 2 * kd) / (2 * (cosh(2 * kd) - 1));
 }
 
+/// A piston that moves with the mean velocity over the depth of the wave where it stands,
+/// c eta/(d + eta) where nothing is carried: for long waves, under which all of the depth moves
+/// alike. With eta = sum a_j cos j phi that is, in the wave's phase at the piston,
+///
+///     x = sum a_j sin(j phi)/(j k d),   phi + k x = angle
+///
+/// Source: Goring (1978), Tsunamis - the propagation of long waves onto a shelf, Caltech KH-R-38;
+/// the integral is ours.
+static double long_stroke(const WaveTerms *w, double angle)
+{
+    double phi = angle, x = 0;
+    for (int i = 0; i < 50; i++) {
+        double eta = 0, kx = 0;
+        for (int j = 1; j <= w->harmonics; j++) {
+            eta += w->crest[j] * cos(j * phi);
+            kx += w->crest[j] * sin(j * phi) / (j * w->depth);
+        }
+        x = kx / w->wave_number;
+        double step = (phi + kx - angle) / (1 + eta / w->depth);
+        phi -= step;
+        if (fabs(step) < 1e-12) break;
+    }
+    return x;
+}
+
 /// The far field is eta = a cos(kx - omega t + phase), so the paddle's velocity is in phase with
 /// the elevation it makes and its displacement a quarter period behind.
 static double regular_stroke(const WaveState *waves, const WaveTrain *t, double time)
@@ -78,6 +103,7 @@ static double regular_stroke(const WaveState *waves, const WaveTrain *t, double 
     double kd = w->wave_number * w->depth;
     double angle = w->angular_frequency * (time - t->time_origin) - t->phase -
                    w->wave_number * (waves->interior.min[0] - t->centre_x);
+    if (t->is_long) return long_stroke(w, angle);
     double first = w->crest[1], stroke = first * piston_stroke_ratio(kd) * sin(angle);
     return stroke + first * first * (t->second[0] * cos(2 * angle) - t->second[1] * sin(2 * angle));
 }

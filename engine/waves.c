@@ -15,6 +15,9 @@ static const double LAYER_SPACING = 1.0 / 3;
 /// Orbits may miss those of the theory by this share of the height. Waves nearly as high as water
 /// is deep (0.7 of it) come to 7 %, and are far better than second order, which is no wave there.
 static const double MISFIT = 0.08;
+/// Ursell's number H L^2/d^3 beyond which second order is no wave, as waves_warnings says, and a
+/// piston had better move as the water of the whole wave does.
+static const double LONGEST_OF_SECOND_ORDER = 26;
 /// kd up to which the piston's modes are followed.
 static const double DEEPEST = 8;
 
@@ -106,8 +109,12 @@ static WaveTrain train_create(const Scene *scene, const WaveTarget *asked, doubl
     train.terms.sin_heading = domain->dimensions == 2 ? 0 : sin(target->heading);
     train.centre_x = (domain->min.x + domain->max.x) / 2;
     train.centre_y = domain->dimensions == 2 ? 0 : (domain->min.y + domain->max.y) / 2;
-    if (domain->kind == DOMAIN_FLUME && scene->waves.piston_order > 1)
+    if (domain->kind == DOMAIN_FLUME && scene->waves.piston_order > 1) {
         second_harmonic(&train.terms, scene->fluid.gravity, train.second);
+        double length = 2 * PI / train.terms.wave_number, depth = train.terms.depth;
+        double ursell = target->height * length * length / (depth * depth * depth);
+        train.is_long = train.theory == WAVE_THEORY_STREAM && ursell > LONGEST_OF_SECOND_ORDER;
+    }
     return train;
 }
 

@@ -19,6 +19,7 @@ typedef struct WaveTrain {
     WaveTerms terms;           ///< wave number, coefficients; phase terms and weights are not set
     double second[2]; ///< flume: the piston's second harmonic over the wave's first squared,
                       ///< real and imaginary part (piston_second.h) [1/m]
+    bool is_long;     ///< flume: the piston moves with the water of the whole wave (piston.c)
 } WaveTrain;
 
 /// A train laid over those before it. Its opacity b rises from 0 to 1 by a quintic smoothstep.

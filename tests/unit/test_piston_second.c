@@ -280,3 +280,27 @@ TEST(a_regular_wave_s_piston_moves_by_its_component_with_itself)
         }
     }
 }
+
+/// Where second order is no wave, the piston carries what passes it: v (d + eta) = c eta.
+TEST(the_piston_of_a_long_wave_moves_with_the_water_that_passes_it)
+{
+    Scene *scene = flume_of(WAVES_REGULAR, 2);
+    scene->waves.initial = (WaveTarget){0.15, 4.2, 0}; // Ursell's number 75
+    WaveState waves = waves_create(scene);
+    const WaveTerms *w = &waves.layers[0].train.terms;
+    double speed = w->angular_frequency / w->wave_number, most = 0;
+    CHECK(waves.layers[0].train.is_long);
+    for (int step = 0; step < 42; step++) {
+        double t = 0.1 * step, dt = 1e-4, x = piston_displacement(&waves, t);
+        double v =
+            (piston_displacement(&waves, t + dt) - piston_displacement(&waves, t - dt)) / (2 * dt);
+        double eta = waves_elevation(&waves, x, 0, t);
+        CHECK_NEAR(v * (0.5 + eta), speed * eta, 1e-5);
+        CHECK_NEAR(piston_displacement(&waves, t + 2 * PI / w->angular_frequency), x, 1e-9);
+        most = maxd(most, fabs(x));
+    }
+    CHECK(most < waves_wall_reach(scene) && most > 0.1);
+    scene->waves.initial.height = 0.03; // 19
+    waves = waves_create(scene);
+    CHECK(!waves.layers[0].train.is_long);
+}
