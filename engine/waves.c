@@ -15,9 +15,6 @@ static const double LAYER_SPACING = 1.0 / 3;
 /// Orbits may miss those of the theory by this share of the height. Waves nearly as high as water
 /// is deep (0.7 of it) come to 7 %, and are far better than second order, which is no wave there.
 static const double MISFIT = 0.08;
-/// Ursell's number H L^2/d^3 beyond which second order is no wave, as waves_warnings says, and a
-/// piston had better move as the water of the whole wave does.
-static const double LONGEST_OF_SECOND_ORDER = 26;
 /// kd up to which the piston's modes are followed.
 static const double DEEPEST = 8;
 
@@ -113,7 +110,7 @@ static WaveTrain train_create(const Scene *scene, const WaveTarget *asked, doubl
         second_harmonic(&train.terms, scene->fluid.gravity, train.second);
         double length = 2 * PI / train.terms.wave_number, depth = train.terms.depth;
         double ursell = target->height * length * length / (depth * depth * depth);
-        train.is_long = train.theory == WAVE_THEORY_STREAM && ursell > LONGEST_OF_SECOND_ORDER;
+        train.is_long = train.theory == WAVE_THEORY_STREAM && ursell > URSELL_OF_SECOND_ORDER;
     }
     return train;
 }

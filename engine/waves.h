@@ -141,6 +141,9 @@ bool waves_may_run(const Scene *scene, const WaveTarget *target);
 /// longest wave that may be set live (the whole of it for a beach). 0 without waves and in a tank.
 double waves_zone_width(const Scene *scene);
 
+/// Ursell's number H L^2/d^3 beyond which second order grows a false crest in its trough.
+enum { URSELL_OF_SECOND_ORDER = 26 };
+
 /// Most that the ring's columns or the piston may move sideways in waves that may be set [m]; 0
 /// without either. Of a piston that follows a record its table tells (Plan.wall_reach has both).
 double waves_wall_reach(const Scene *scene);

@@ -106,13 +106,12 @@ int waves_warnings(const Scene *scene, char *text, int size)
         warn(text, size, &count,
              "no wave by the asked theory is so high (or its crest is too sharp to be followed): "
              "Stokes' to second order instead");
-    // Ursell's number: beyond 26 Stokes' waves grow a false crest in their trough.
     double ursell = sea->height * length * length / (depth * depth * depth);
     bool stokes = theory == WAVE_THEORY_STOKES2 || theory == WAVE_THEORY_STOKES5;
-    if (ursell > 26 && stokes) {
+    if (ursell > URSELL_OF_SECOND_ORDER && stokes) {
         snprintf(line, sizeof line,
-                 "water is too shallow for Stokes' waves (Ursell number H L^2/d^3 = %.3g > 26)",
-                 ursell);
+                 "water is too shallow for Stokes' waves (Ursell number H L^2/d^3 = %.3g > %d)",
+                 ursell, URSELL_OF_SECOND_ORDER);
         warn(text, size, &count, line);
     }
     bool still = false;
